@@ -1,0 +1,66 @@
+#include "report/convert_report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace zerotree::report {
+namespace {
+
+nlohmann::ordered_json prefixes_json(const std::vector<PrefixError>& prefixes) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const PrefixError& prefix : prefixes)
+    list.push_back({{"bytes", prefix.bytes},
+                    {"bitsPerVertex", prefix.bits_per_vertex},
+                    {"error", prefix.error},
+                    {"hausdorff", prefix.hausdorff}});
+  return list;
+}
+
+nlohmann::ordered_json repairs_json(const std::vector<Repair>& repairs) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::object();
+  for (const Repair& repair : repairs) list[repair.what] = repair.count;
+  return list;
+}
+
+nlohmann::ordered_json stages_json(const std::vector<StageCost>& stages) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const StageCost& stage : stages)
+    list.push_back(
+        {{"name", stage.name}, {"seconds", stage.seconds}, {"peakMemoryBytes", stage.peak_memory}});
+  return list;
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const ConvertReport& r) {
+  return {
+      {"input",
+       {{"file", r.input},
+        {"format", r.format},
+        {"vertices", r.input_vertices},
+        {"faces", r.input_faces},
+        {"diagonal", r.diagonal},
+        {"notCarried", r.not_carried}}},
+      {"clean",
+       {{"repairs", repairs_json(r.repairs)},
+        {"vertices", r.clean_vertices},
+        {"faces", r.clean_faces},
+        {"components", r.components},
+        {"boundaryLoops", r.boundary_loops},
+        {"genus", r.genus}}},
+      {"base",
+       {{"vertices", r.base_vertices},
+        {"faces", r.base_faces},
+        {"creaseEdges", r.crease_edges},
+        {"corners", r.corners}}},
+      {"remesh",
+       {{"levels", r.levels},
+        {"finestVertices", r.finest_vertices},
+        {"coneSwaps", r.cone_swaps},
+        {"error", r.remeshing_error}}},
+      {"payload", {{"bytes", r.payload_bytes}, {"prefixes", prefixes_json(r.payload_prefixes)}}},
+      {"stream", {{"bytes", r.stream_bytes}, {"prefixes", prefixes_json(r.stream_prefixes)}}},
+      {"file", {{"bytes", r.file_bytes}}},
+      {"stages", stages_json(r.stages)}};
+}
+
+}  // namespace zerotree::report

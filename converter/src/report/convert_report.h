@@ -1,0 +1,75 @@
+// The JSON report of a conversion: everything a script needs to judge it.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace zerotree::report {
+
+/// Time and memory of one stage.
+struct StageCost {
+  std::string name;
+  double seconds = 0;
+  /// Highest resident memory of the process while the stage ran, in bytes.
+  std::uint64_t peak_memory = 0;
+};
+
+/// A prefix of the stream and the measured distance of its surface from the input.
+struct PrefixError {
+  std::uint64_t bytes = 0;
+  double bits_per_vertex = 0;
+  /// Symmetric RMS distance relative to the input's bounding box diagonal.
+  double error = 0;
+  /// Symmetric Hausdorff distance relative to the same.
+  double hausdorff = 0;
+};
+
+/// One repair of the clean stage; listed only if its count is not zero.
+struct Repair {
+  std::string what;
+  std::uint64_t count = 0;
+};
+
+/// Results of a conversion. Lengths are in the input's unit unless they are called relative.
+struct ConvertReport {
+  std::string input;
+  std::string format;
+  std::uint64_t input_vertices = 0;
+  std::uint64_t input_faces = 0;
+  double diagonal = 0;
+  std::vector<std::string> not_carried;
+
+  std::vector<Repair> repairs;
+  std::uint64_t clean_vertices = 0;
+  std::uint64_t clean_faces = 0;
+  std::uint64_t components = 0;
+  std::uint64_t boundary_loops = 0;
+  std::int64_t genus = 0;
+
+  std::uint64_t base_vertices = 0;
+  std::uint64_t base_faces = 0;
+  std::uint64_t crease_edges = 0;
+  std::uint64_t corners = 0;
+  int levels = 0;
+  std::uint64_t finest_vertices = 0;
+  std::uint64_t cone_swaps = 0;
+  /// Symmetric RMS distance of the surface with every detail unquantised, relative.
+  double remeshing_error = 0;
+
+  std::uint64_t stream_bytes = 0;
+  std::uint64_t payload_bytes = 0;
+  std::uint64_t file_bytes = 0;
+  /// Prefixes of the payload bound to the base mesh in the glTF file.
+  std::vector<PrefixError> payload_prefixes;
+  /// Prefixes of the elementary stream; empty if none was written.
+  std::vector<PrefixError> stream_prefixes;
+
+  std::vector<StageCost> stages;
+};
+
+/// The report as JSON: camelCase keys, grouped by stage; extension-spec does not depend on it.
+nlohmann::ordered_json to_json(const ConvertReport& report);
+
+}  // namespace zerotree::report
