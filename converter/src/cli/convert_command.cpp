@@ -1,0 +1,90 @@
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/quantities.h"
+#include "cli/terminal_progress.h"
+#include "convert/convert.h"
+#include "export/atomic_file.h"
+#include "mesh/error.h"
+
+namespace zerotree::cli {
+namespace {
+
+struct ConvertArguments {
+  convert::ConvertOptions options;
+  std::filesystem::path report;
+  std::string max_error;
+  double crease_angle = -1;
+};
+
+void print_summary(const ConvertArguments& arguments, const report::ConvertReport& report) {
+  std::printf("%s: %llu vertices, %llu faces -> base of %llu vertices, %d levels\n",
+              report.input.c_str(), static_cast<unsigned long long>(report.input_vertices),
+              static_cast<unsigned long long>(report.input_faces),
+              static_cast<unsigned long long>(report.base_vertices), report.levels);
+  for (const report::Repair& repair : report.repairs)
+    std::printf("  repaired: %s: %llu\n", repair.what.c_str(),
+                static_cast<unsigned long long>(repair.count));
+  for (const std::string& lost : report.not_carried) std::printf("  not carried: %s\n", lost.c_str());
+  const auto& prefixes =
+      arguments.options.glb.empty() ? report.stream_prefixes : report.payload_prefixes;
+  std::printf("  %12s  %10s  %s\n", "bytes", "bits/vert", "error (1e-4 of the diagonal)");
+  for (const report::PrefixError& prefix : prefixes)
+    std::printf("  %12llu  %10.3f  %.3f\n", static_cast<unsigned long long>(prefix.bytes),
+                prefix.bits_per_vertex, prefix.error * 1e4);
+}
+
+int run_convert(ConvertArguments& arguments) {
+  convert::ConvertOptions& options = arguments.options;
+  if (options.glb.empty() && options.stream.empty())
+    throw Error(ExitCode::usage, "convert: name an output: -o OUT.glb, --stream OUT.zt or both");
+  if (!arguments.max_error.empty()) {
+    const Distance target = parse_distance(arguments.max_error, "--max-error");
+    (target.in_metres ? options.max_error_metres : options.max_error) = target.value;
+  }
+  if (arguments.crease_angle >= 0) options.crease_angle_degrees = arguments.crease_angle;
+  report::ConvertReport report;
+  {
+    TerminalProgress progress;
+    report = convert::convert_file(options, progress.callback());
+  }
+  if (!arguments.report.empty())
+    exporter::write_file_atomically(arguments.report, report::to_json(report).dump(2) + "\n");
+  print_summary(arguments, report);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<ConvertArguments>();
+  convert::ConvertOptions& options = arguments->options;
+  CLI::App* command = app.add_subcommand("convert", "Turn a scan into a progressive glTF file");
+  command->add_option("input", options.input,
+                      "Scan: .ply[.gz] .obj .off .stl .glb .gltf .drc; it is never changed")
+      ->required();
+  command->add_option("-o,--output", options.glb, "Progressive glTF file (.glb, .gltf with --split)");
+  command->add_option("--stream", options.stream, "Elementary stream with the base inside (.zt)");
+  command->add_option("--report", arguments->report, "JSON report of all figures");
+  command->add_flag("--split", options.split, "Payload in a file of its own, NAME.zt.bin");
+  command->add_option("--base-vertices", options.base_vertices, "Vertices of the base mesh [auto]")
+      ->check(CLI::Range(4, 1000000));
+  command->add_option("--levels", options.levels, "Subdivision levels [auto]")
+      ->check(CLI::Range(0, 10));
+  command->add_option("--crease-angle", arguments->crease_angle,
+                      "Edges bent by more degrees than this are creases; 180: none [auto]")
+      ->check(CLI::Range(1.0, 180.0));
+  command->add_option("--max-error", arguments->max_error,
+                      "End the stream where the measured error is at most this: 1e-4, 0.5mm");
+  command->add_option("--target-size", options.target_size, "Largest output file: 200000, 200kB")
+      ->transform(CLI::AsSizeValue(true));
+  command->add_option("--threads", options.threads, "Threads [one per core]")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--memory-limit", options.memory_limit, "Most memory to use: 4GiB")
+      ->transform(CLI::AsSizeValue(true));
+  command->callback([arguments, &exit_code] { exit_code = run_convert(*arguments); });
+}
+
+}  // namespace zerotree::cli

@@ -1,0 +1,44 @@
+// The whole way of a scan: import, clean, domain, remesh, fit, analysis, encode, gltf, report.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "mesh/progress.h"
+#include "report/convert_report.h"
+
+namespace zerotree::convert {
+
+/// What to convert and how. Paths that are empty are not written; at least one of `glb` and
+/// `stream` must be named.
+struct ConvertOptions {
+  std::filesystem::path input;
+  /// The progressive glTF file, .glb (or .gltf with `split`).
+  std::filesystem::path glb;
+  /// The elementary stream with the base embedded, .zt.
+  std::filesystem::path stream;
+  /// Payload in a file of its own beside the glTF file.
+  bool split = false;
+  /// Vertices of the base mesh; 0: from the input's size and topology.
+  int base_vertices = 0;
+  /// Subdivision levels; -1: from the input's density.
+  int levels = -1;
+  /// Edges sharper than this are creases; 180 switches creases off. Empty: the default rule.
+  std::optional<double> crease_angle_degrees;
+  /// Cut the stream where the measured error first is at most this (relative); 0: no cut.
+  double max_error = 0;
+  /// The same in metres, taken relative to the diagonal once that is known; 0: not given.
+  double max_error_metres = 0;
+  /// Largest size of each file written, in bytes; 0: no limit.
+  std::uint64_t target_size = 0;
+  /// Threads to use; 0: one per core.
+  int threads = 0;
+  /// Refuse inputs that would need more memory than this, in bytes; 0: no limit.
+  std::uint64_t memory_limit = 0;
+};
+
+/// Converts and returns the report. Output files appear complete or not at all. Throws Error.
+report::ConvertReport convert_file(const ConvertOptions& options, const Progress& progress);
+
+}  // namespace zerotree::convert
