@@ -1,5 +1,6 @@
 #include "shapes.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
