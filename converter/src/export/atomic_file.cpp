@@ -52,7 +52,8 @@ void sync_folder(const fs::path& file) {
 }  // namespace
 
 StagedFile::StagedFile(const fs::path& target) : target_(resolved(target)) {
-  const std::string stem = "." + target_.filename().string() + "." + std::to_string(::getpid());
+  std::string stem = ".";
+  stem += target_.filename().string() + "." + std::to_string(::getpid());
   for (int attempt = 0; descriptor_ < 0; ++attempt) {
     temporary_ = folder_of(target_) / (stem + "-" + std::to_string(attempt) + ".tmp");
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
