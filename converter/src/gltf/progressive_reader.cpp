@@ -1,0 +1,253 @@
+#include "gltf/progressive_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "mesh/error.h"
+
+namespace zerotree::gltf {
+namespace {
+
+constexpr std::uint64_t kTriangles = 4;
+constexpr std::array<std::string_view, 8> kProperties = {"attributes", "bounds",   "bufferView",
+                                                         "levels",     "prefixes", "sourceDiagonal",
+                                                         "extensions", "extras"};
+
+// Runs a step of reading; what it finds wrong becomes an issue. False if it did not come through.
+template <class Step>
+bool collect(Issues& issues, Step step) {
+  try {
+    step();
+    return true;
+  } catch (const IssueFound& found) {
+    issues.push_back(found.issue());
+    return false;
+  }
+}
+
+JsonCursor extension_of(const JsonCursor& object) {
+  return object.member("extensions").member(kExtensionName);
+}
+
+bool lists_extension(const JsonCursor& list) {
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (list.element(i).string() == kExtensionName) return true;
+  return false;
+}
+
+void check_misplaced(const JsonCursor& object, Issues& issues) {
+  collect(issues, [&] {
+    const JsonCursor extension = extension_of(object);
+    if (extension.exists()) extension.fail(IssueCode::extension_misplaced, "");
+  });
+}
+
+void check_misplaced_everywhere(const JsonCursor& root, Issues& issues) {
+  check_misplaced(root, issues);
+  for (const char* list : {"accessors", "bufferViews", "buffers", "materials", "nodes", "scenes"})
+    collect(issues, [&] {
+      const JsonCursor objects = root.member(list);
+      for (std::size_t i = 0; i < objects.size(); ++i) check_misplaced(objects.element(i), issues);
+    });
+}
+
+Eigen::Vector3f read_corner(const JsonCursor& corner) {
+  if (corner.value().size() != 3 || !corner.value().is_array())
+    corner.fail(IssueCode::property_type, "an array of 3 numbers is expected");
+  Eigen::Vector3f point;
+  for (int k = 0; k < 3; ++k) {
+    const JsonCursor number = corner.element(static_cast<std::uint64_t>(k));
+    point[k] = static_cast<float>(number.number());
+    if (!std::isfinite(point[k])) number.fail(IssueCode::property_value, "beyond float's range");
+  }
+  return point;
+}
+
+void read_bounds(const JsonCursor& bounds, ProgressiveAsset& asset) {
+  bounds.value();
+  asset.bounds_min = read_corner(bounds.member("min"));
+  asset.bounds_max = read_corner(bounds.member("max"));
+  if ((asset.bounds_min.array() > asset.bounds_max.array()).any())
+    bounds.fail(IssueCode::property_value, "min is greater than max");
+}
+
+void read_levels(const JsonCursor& levels, ProgressiveAsset& asset) {
+  const std::uint64_t value = levels.unsigned_integer();
+  if (value > static_cast<std::uint64_t>(kMaxLevels))
+    levels.fail(IssueCode::property_value, "levels go from 0 to " + std::to_string(kMaxLevels));
+  asset.levels = static_cast<int>(value);
+}
+
+void check_attributes(const JsonCursor& attributes) {
+  attributes.value();
+  if (attributes.size() != 1 || attributes.element(0).string() != "POSITION")
+    attributes.fail(IssueCode::property_value, "this version carries exactly [\"POSITION\"]");
+}
+
+void read_diagonal(const JsonCursor& diagonal, ProgressiveAsset& asset) {
+  asset.source_diagonal = diagonal.number();
+  if (!(asset.source_diagonal > 0))
+    diagonal.fail(IssueCode::property_value, "a length above 0 is expected");
+}
+
+void read_prefixes(const JsonCursor& prefixes, ProgressiveAsset& asset) {
+  prefixes.value();
+  if (prefixes.size() == 0) prefixes.fail(IssueCode::property_value, "it is empty");
+  for (std::size_t i = 0; i < prefixes.size(); ++i) {
+    const JsonCursor place = prefixes.element(i);
+    const PrefixEntry entry{place.member("byteLength").unsigned_integer(),
+                            place.member("geometricError").number()};
+    if (entry.geometric_error < 0)
+      place.member("geometricError").fail(IssueCode::property_value, "errors are at least 0");
+    if (i > 0 && entry.byte_length <= asset.prefixes.back().byte_length)
+      place.member("byteLength").fail(IssueCode::prefix_order, std::to_string(entry.byte_length));
+    if (i > 0 && entry.geometric_error > asset.prefixes.back().geometric_error)
+      place.member("geometricError").fail(IssueCode::prefix_order, "the error rises");
+    asset.prefixes.push_back(entry);
+  }
+}
+
+void read_payload(GltfDocument& document, const JsonCursor& index, ProgressiveAsset& asset) {
+  const ViewBytes bytes = document.view_bytes(index);
+  asset.payload_length = bytes.length;
+  asset.payload.assign(bytes.available.begin(), bytes.available.end());
+  const JsonCursor view = document.root().member("bufferViews").element(index.unsigned_integer());
+  if (view.member("target").exists() || view.member("byteStride").exists())
+    view.fail(IssueCode::payload_view_invalid, "");
+  const JsonCursor buffer =
+      document.root().member("buffers").element(view.member("buffer").unsigned_integer());
+  const std::uint64_t end = view.member("byteOffset").unsigned_integer_or(0) + bytes.length;
+  const std::uint64_t buffer_length = buffer.member("byteLength").unsigned_integer();
+  if (end != buffer_length)
+    view.fail(IssueCode::payload_not_last,
+              std::to_string(buffer_length - end) + " bytes of the buffer follow it");
+}
+
+// Triangles of all primitives in their order; the primitives share one array of positions.
+void read_base(GltfDocument& document, const JsonCursor& mesh, ProgressiveAsset& asset) {
+  const JsonCursor primitives = mesh.member("primitives");
+  const JsonCursor first = primitives.element(0).member("attributes");
+  asset.control_points = document.read_vectors(first.member("POSITION"));
+  if (first.member("NORMAL").exists()) {
+    asset.normals = document.read_vectors(first.member("NORMAL"));
+    if (asset.normals.size() != asset.control_points.size())
+      first.member("NORMAL").fail(IssueCode::base_unsupported, "its count is not POSITION's");
+  }
+  if (asset.control_points.size() >= bitstream::kNone)
+    first.member("POSITION").fail(IssueCode::base_unsupported, "it has too many vertices");
+  asset.base.vertex_count = static_cast<std::uint32_t>(asset.control_points.size());
+  const std::uint64_t positions = first.member("POSITION").unsigned_integer();
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    const JsonCursor primitive = primitives.element(i);
+    if (primitive.member("mode").unsigned_integer_or(kTriangles) != kTriangles)
+      primitive.member("mode").fail(IssueCode::base_unsupported, "the mode is not TRIANGLES");
+    if (primitive.member("attributes").member("POSITION").unsigned_integer() != positions)
+      primitive.fail(IssueCode::base_unsupported, "its POSITION is another accessor");
+    const JsonCursor place = primitive.member("indices");
+    const std::vector<std::uint32_t> indices = document.read_indices(place);
+    if (indices.size() % 3 != 0)
+      place.fail(IssueCode::base_unsupported, "the number of indices is no multiple of 3");
+    for (std::uint32_t index : indices)
+      if (index >= asset.base.vertex_count)
+        place.fail(IssueCode::base_index_out_of_range, "vertex " + std::to_string(index) + " of " +
+                                                           std::to_string(asset.base.vertex_count));
+    for (std::size_t k = 0; k < indices.size(); k += 3)
+      asset.base.triangles.push_back({indices[k], indices[k + 1], indices[k + 2]});
+  }
+}
+
+void check_unknown_properties(const JsonCursor& extension, Issues& issues) {
+  for (const auto& [key, value] : extension.value().items())
+    if (std::find(kProperties.begin(), kProperties.end(), key) == kProperties.end())
+      issues.push_back({IssueCode::property_unknown, extension.member(key).pointer(), ""});
+}
+
+}  // namespace
+
+std::vector<std::size_t> progressive_meshes(const GltfDocument& document, Issues& issues) {
+  const JsonCursor root = document.root();
+  std::vector<std::size_t> found;
+  collect(issues, [&] {
+    const JsonCursor meshes = root.member("meshes");
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      const JsonCursor mesh = meshes.element(i);
+      collect(issues, [&] {
+        if (extension_of(mesh).exists()) found.push_back(i);
+        const JsonCursor primitives = mesh.member("primitives");
+        for (std::size_t k = 0; k < primitives.size(); ++k)
+          check_misplaced(primitives.element(k), issues);
+      });
+    }
+  });
+  check_misplaced_everywhere(root, issues);
+  collect(issues, [&] {
+    const JsonCursor used = root.member("extensionsUsed");
+    if (!found.empty() && !lists_extension(used)) used.fail(IssueCode::extension_not_listed, "");
+  });
+  collect(issues, [&] {
+    const JsonCursor required = root.member("extensionsRequired");
+    if (lists_extension(required)) required.fail(IssueCode::extension_required, "");
+  });
+  return found;
+}
+
+std::optional<ProgressiveAsset> read_mesh(GltfDocument& document, std::size_t mesh,
+                                          Issues& issues) {
+  ProgressiveAsset asset;
+  const JsonCursor place = document.root().member("meshes").element(mesh);
+  const JsonCursor extension = extension_of(place);
+  if (!collect(issues, [&] { extension.member("levels"); })) return std::nullopt;
+  check_unknown_properties(extension, issues);
+  bool decodes = true;
+  const auto step = [&](auto read) { decodes = collect(issues, read) && decodes; };
+  step([&] { read_levels(extension.member("levels"), asset); });
+  step([&] { check_attributes(extension.member("attributes")); });
+  step([&] { read_bounds(extension.member("bounds"), asset); });
+  step([&] { read_diagonal(extension.member("sourceDiagonal"), asset); });
+  step([&] { read_prefixes(extension.member("prefixes"), asset); });
+  step([&] { read_payload(document, extension.member("bufferView"), asset); });
+  step([&] { read_base(document, place, asset); });
+  if (!decodes) return std::nullopt;
+  collect(issues, [&] {
+    if (place.member("name").exists()) asset.name = place.member("name").string();
+    const JsonCursor generator = document.root().member("asset").member("generator");
+    asset.generator = generator.exists() ? generator.string() : "";
+  });
+  if (asset.prefixes.back().byte_length != asset.payload_length)
+    issues.push_back({IssueCode::prefix_end, extension.member("prefixes").pointer(),
+                      std::to_string(asset.prefixes.back().byte_length) + " of " +
+                          std::to_string(asset.payload_length) + " bytes"});
+  if (asset.payload.size() < asset.payload_length)
+    issues.push_back({IssueCode::payload_truncated, extension.member("bufferView").pointer(),
+                      std::to_string(asset.payload.size()) + " of " +
+                          std::to_string(asset.payload_length) + " bytes are there"});
+  return asset;
+}
+
+ProgressiveAsset read_progressive(const std::filesystem::path& path) {
+  const auto fail = [&](const Issue& issue) {
+    const std::string pointer = issue.pointer.empty() ? "" : issue.pointer + ": ";
+    throw Error(ExitCode::unreadable_input, path.string() + ": " + pointer + issue_message(issue));
+  };
+  Issues issues;
+  std::optional<ProgressiveAsset> asset;
+  if (!collect(issues, [&] {
+        GltfDocument document(path, read_file(path));
+        const std::vector<std::size_t> meshes = progressive_meshes(document, issues);
+        if (meshes.empty()) throw IssueFound({IssueCode::extension_absent, "", ""});
+        if (meshes.size() > 1)
+          throw Error(ExitCode::unreadable_input,
+                      path.string() + ": /meshes: " + std::to_string(meshes.size()) +
+                          " meshes are progressive: split the file, one mesh can be read");
+        asset = read_mesh(document, meshes.front(), issues);
+      }))
+    fail(issues.back());
+  // A payload that is cut off decodes like any prefix; everything else would decode wrongly.
+  for (const Issue& issue : issues)
+    if (is_error(issue) && issue.code != IssueCode::payload_truncated) fail(issue);
+  return *asset;
+}
+
+}  // namespace zerotree::gltf
