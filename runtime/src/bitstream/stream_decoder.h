@@ -1,0 +1,68 @@
+// Decodes any prefix of a stream, in pieces of any size.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bitstream/base_edges.h"
+#include "bitstream/base_topology.h"
+#include "bitstream/coefficient_layout.h"
+#include "bitstream/decode_status.h"
+#include "bitstream/stream_header.h"
+
+namespace zerotree::bitstream {
+
+/// A progressive decoder. Integers all the way: what it holds after n bytes is the same on every
+/// machine and does not depend on the pieces in which the bytes came. Any bytes are safe; memory
+/// stays within the limits plus the bytes fed. The only exception it throws is std::bad_alloc.
+class StreamDecoder {
+ public:
+  /// For streams that carry their base mesh.
+  explicit StreamDecoder(const Limits& limits = {});
+  /// For streams bound to an external base: `base` with its triangles (sharp tags are ignored:
+  /// the stream holds them) and x, y, z of each of its vertices. The stream is broken if it was
+  /// made for another base.
+  StreamDecoder(BaseTopology base, std::vector<float> positions, const Limits& limits = {});
+  ~StreamDecoder();
+  StreamDecoder(StreamDecoder&&) noexcept;
+  StreamDecoder& operator=(StreamDecoder&&) noexcept;
+
+  /// Takes the next bytes of the stream and decodes what they allow. Bytes after the end and after
+  /// an error are ignored. About 0.1 microseconds a decision.
+  DecodeStatus feed(std::span<const std::uint8_t> bytes);
+
+  DecodeStatus status() const;
+  /// If broken, a sentence that says why; otherwise empty.
+  const std::string& reason() const;
+
+  /// The header has been read and accepted.
+  bool header_ready() const;
+  const StreamHeader& header() const;
+
+  /// Connectivity and sharp tags are known, so a surface can be made. Before, the four accessors
+  /// below return empty things.
+  bool base_ready() const;
+  const BaseTopology& base() const;
+  const std::vector<BaseEdge>& base_edges() const;
+  /// x, y, z per base vertex as far as they are known: the external ones as they were given,
+  /// embedded ones at the middle of what their known bits leave open.
+  std::vector<float> base_positions() const;
+  /// Details as far as they are known.
+  const CoefficientSet& coefficients() const;
+
+  /// One more than the finest level with a detail that is not zero so far; 0 if there is none.
+  int detailed_levels() const;
+
+  /// Bytes fed so far; once done, at most the length of the stream.
+  std::size_t bytes_consumed() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace zerotree::bitstream
