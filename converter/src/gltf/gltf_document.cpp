@@ -111,10 +111,12 @@ std::vector<std::uint8_t> GltfDocument::load_uri(const JsonCursor& uri) const {
       uri.fail(IssueCode::buffer_unreadable, "the data URI holds no base64 data");
     return bytes;
   }
-  // Only files beside the glTF file are read: what a file names must not lead elsewhere.
-  const std::filesystem::path relative = percent_decoded(text);
-  if (has_scheme(text) || relative.empty() || relative.is_absolute())
-    uri.fail(IssueCode::buffer_unreadable, "\"" + text + "\" is not a relative path");
+  const std::filesystem::path relative =
+      std::filesystem::path(percent_decoded(text)).lexically_normal();
+  // What a hostile file names must not lead out of its folder.
+  if (has_scheme(text) || relative.empty() || relative.is_absolute() || *relative.begin() == "..")
+    uri.fail(IssueCode::buffer_unreadable,
+             "\"" + text + "\" names no file in the folder of the glTF file");
   try {
     return read_file(path_.parent_path() / relative);
   } catch (const Error& error) {
