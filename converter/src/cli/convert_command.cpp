@@ -27,7 +27,8 @@ void print_summary(const ConvertArguments& arguments, const report::ConvertRepor
   for (const report::Repair& repair : report.repairs)
     std::printf("  repaired: %s: %llu\n", repair.what.c_str(),
                 static_cast<unsigned long long>(repair.count));
-  for (const std::string& lost : report.not_carried) std::printf("  not carried: %s\n", lost.c_str());
+  for (const std::string& lost : report.not_carried)
+    std::printf("  not carried: %s\n", lost.c_str());
   const auto& prefixes =
       arguments.options.glb.empty() ? report.stream_prefixes : report.payload_prefixes;
   std::printf("  %12s  %10s  %s\n", "bytes", "bits/vert", "error (1e-4 of the diagonal)");
@@ -62,10 +63,12 @@ void add_convert(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<ConvertArguments>();
   convert::ConvertOptions& options = arguments->options;
   CLI::App* command = app.add_subcommand("convert", "Turn a scan into a progressive glTF file");
-  command->add_option("input", options.input,
-                      "Scan: .ply[.gz] .obj .off .stl .glb .gltf .drc; it is never changed")
+  command
+      ->add_option("input", options.input,
+                   "Scan: .ply[.gz] .obj .off .stl .glb .gltf .drc; it is never changed")
       ->required();
-  command->add_option("-o,--output", options.glb, "Progressive glTF file (.glb, .gltf with --split)");
+  command->add_option("-o,--output", options.glb,
+                      "Progressive glTF file (.glb, .gltf with --split)");
   command->add_option("--stream", options.stream, "Elementary stream with the base inside (.zt)");
   command->add_option("--report", arguments->report, "JSON report of all figures");
   command->add_flag("--split", options.split, "Payload in a file of its own, NAME.zt.bin");
@@ -73,8 +76,9 @@ void add_convert(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(4, 1000000));
   command->add_option("--levels", options.levels, "Subdivision levels [auto]")
       ->check(CLI::Range(0, 10));
-  command->add_option("--crease-angle", arguments->crease_angle,
-                      "Edges bent by more degrees than this are creases; 180: none [auto]")
+  command
+      ->add_option("--crease-angle", arguments->crease_angle,
+                   "Edges bent by more degrees than this are creases; 180: none [auto]")
       ->check(CLI::Range(1.0, 180.0));
   command->add_option("--max-error", arguments->max_error,
                       "End the stream where the measured error is at most this: 1e-4, 0.5mm");

@@ -1,0 +1,48 @@
+// The surface that a prefix of a stream stands for.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "bitstream/stream_decoder.h"
+#include "decode/stream_file.h"
+#include "export/mesh_bytes.h"
+#include "surface/subdivision_hierarchy.h"
+
+namespace zerotree::decode {
+
+/// Decodes growing prefixes of one stream. Topology is built once.
+class PrefixSurface {
+ public:
+  /// Refers to `file`, which must outlive it. `hierarchy`, if given, is that of the stream's base
+  /// (sharp tags included) with at least the stream's levels; otherwise one is built when needed.
+  explicit PrefixSurface(const StreamFile& file,
+                         std::shared_ptr<const surface::SubdivisionHierarchy> hierarchy = nullptr);
+
+  /// Decodes the first `bytes` bytes (all of them if there are fewer); never goes back to a
+  /// shorter prefix. Throws Error(unreadable_input) if the stream is broken.
+  void advance_to(std::uint64_t bytes);
+
+  const bitstream::StreamDecoder& decoder() const { return decoder_; }
+  /// As deep as the decoded details reach, and where the limit surface looks smooth.
+  int automatic_level();
+  /// Limit positions and normals at `level`, 0 .. header levels; all of `automatic_level` if empty.
+  /// Throws Error(unreadable_input) if the prefix ends before the base's connectivity, and
+  /// Error(usage) for a level out of range.
+  exporter::Surface surface(std::optional<int> level = {});
+
+ private:
+  void require_base() const;
+  const surface::SubdivisionHierarchy& hierarchy_to(int level);
+
+  const StreamFile& file_;
+  bitstream::StreamDecoder decoder_;
+  std::uint64_t fed_ = 0;
+  std::shared_ptr<const surface::SubdivisionHierarchy> hierarchy_;
+};
+
+/// The triangles of a surface with positions in double, as distances are measured.
+TriangleMesh to_triangle_mesh(const exporter::Surface& surface);
+
+}  // namespace zerotree::decode
