@@ -32,12 +32,12 @@ struct BaseConnectivityModel {
   // Whether the fan of u closes, by its edges so far and those of v: the distribution of valences.
   std::array<std::array<AdaptiveBit, 3>, 9> left;
   std::array<AdaptiveBit, 2> last_of_loop;   // kLeft in a loop of three: after no / some kLeft
-  std::array<AdaptiveBit, 4> fresh;          // kNew, by edges of v
+  std::array<AdaptiveBit, 3> fresh;          // kNew, by edges of v
   std::array<AdaptiveBit, 3> right;          // kRight, by edges of v
   std::array<AdaptiveBit, 4> boundary;       // by whether the gates before and after are open
   AdaptiveBit near;                          // kJoin within kNearJoin steps
   AdaptiveBit backward;                      // its direction
-  std::array<AdaptiveBit, 9> distance_bits;  // its distance: number of bits, unary
+  std::array<AdaptiveBit, 8> distance_bits;  // its distance: number of bits, unary
   std::array<std::array<AdaptiveBit, 3>, 3> crease;  // by crease edges known at both ends
   std::array<AdaptiveBit, 4> corner;                 // by crease edges at the vertex
 };
