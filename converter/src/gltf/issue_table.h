@@ -42,6 +42,7 @@ enum class IssueCode {
   payload_base_mismatch,
   payload_levels_mismatch,
   payload_incomplete,
+  payload_too_large,
   surface_not_finite,
   surface_out_of_bounds,
 };

@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "bitstream/base_topology.h"
+#include "bitstream/stream_header.h"
 
 namespace zerotree::gltf {
 
 inline constexpr const char* kExtensionName = "ZEROTREE_mesh_progressive";
 /// Largest value of the extension's property `levels`.
-inline constexpr int kMaxLevels = 15;
+inline constexpr int kMaxLevels = bitstream::kMostLevels;
 
 /// An entry of the extension's table of measured errors.
 struct PrefixEntry {

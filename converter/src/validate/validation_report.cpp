@@ -1,0 +1,63 @@
+#include "validate/validation_report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace zerotree::validate {
+namespace {
+
+using gltf::Severity;
+using nlohmann::ordered_json;
+
+ordered_json issues_json(const ValidationReport& report) {
+  ordered_json messages = ordered_json::array();
+  for (const gltf::Issue& issue : report.issues) {
+    const gltf::IssueText& row = gltf::issue_text(issue.code);
+    messages.push_back({{"code", row.id},
+                        {"message", gltf::issue_message(issue)},
+                        {"severity", static_cast<int>(row.severity)},
+                        {"pointer", issue.pointer}});
+  }
+  return {{"numErrors", count_issues(report, Severity::error)},
+          {"numWarnings", count_issues(report, Severity::warning)},
+          {"numInfos", count_issues(report, Severity::information)},
+          {"numHints", count_issues(report, Severity::hint)},
+          {"messages", std::move(messages)},
+          {"truncated", false}};
+}
+
+ordered_json info_json(const ValidationReport& report) {
+  ordered_json meshes = ordered_json::array();
+  for (const MeshInfo& mesh : report.meshes)
+    meshes.push_back({{"pointer", mesh.pointer},
+                      {"levels", mesh.levels},
+                      {"baseVertexCount", mesh.base_vertices},
+                      {"baseTriangleCount", mesh.base_triangles},
+                      {"finestVertexCount", mesh.finest_vertices},
+                      {"payloadByteLength", mesh.payload_bytes},
+                      {"prefixCount", mesh.prefix_entries}});
+  ordered_json info = ordered_json::object();
+  if (!report.version.empty()) info["version"] = report.version;
+  if (!report.generator.empty()) info["generator"] = report.generator;
+  if (!report.extensions_used.empty()) info["extensionsUsed"] = report.extensions_used;
+  info["progressiveMeshes"] = std::move(meshes);
+  return info;
+}
+
+}  // namespace
+
+std::size_t count_issues(const ValidationReport& report, Severity severity) {
+  return static_cast<std::size_t>(std::count_if(
+      report.issues.begin(), report.issues.end(),
+      [&](const gltf::Issue& issue) { return gltf::issue_text(issue.code).severity == severity; }));
+}
+
+ordered_json to_json(const ValidationReport& report) {
+  return {{"uri", report.uri},
+          {"mimeType", report.mime_type},
+          {"validatorVersion", ZEROTREE_VERSION},
+          {"issues", issues_json(report)},
+          {"info", info_json(report)}};
+}
+
+}  // namespace zerotree::validate
