@@ -85,13 +85,6 @@ class BaseConnectivityCoder {
     return ended();
   }
 
-  /// Encoder and decoder: the tags alone, for a topology whose triangles pass check_base_topology.
-  /// The decoder replaces the tags that are there.
-  ConnectivityStatus code_tags_only(BaseTopology& topology) {
-    code_tags(topology);
-    return ended();
-  }
-
  private:
   static constexpr std::uint32_t kNearJoin = 512;  // steps; nearer joins are coded by distance
 
@@ -279,13 +272,6 @@ template <class BitCoder>
 ConnectivityStatus decode_base_connectivity(BitCoder& coder, BaseCounts counts,
                                             BaseTopology& topology) {
   return BaseConnectivityCoder<BitCoder>(coder).decode(counts, topology);
-}
-
-/// Writes or reads the crease and corner tags of a mesh whose triangles both sides have, in any
-/// order; see BaseConnectivityCoder::code_tags_only.
-template <class BitCoder>
-ConnectivityStatus code_base_tags(BitCoder& coder, BaseTopology& topology) {
-  return BaseConnectivityCoder<BitCoder>(coder).code_tags_only(topology);
 }
 
 }  // namespace zerotree::bitstream
