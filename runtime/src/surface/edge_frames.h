@@ -1,0 +1,88 @@
+// The local frame that a detail is expressed in (paper, section 3.3).
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "bitstream/base_topology.h"
+
+namespace zerotree::surface {
+
+using Vector3 = std::array<double, 3>;
+
+/// An orthonormal, right-handed frame: tangent1 x tangent2 = normal.
+struct EdgeFrame {
+  Vector3 normal, tangent1, tangent2;
+};
+
+/// The frame of the surface whose tangents are `along` and `across`: tangent 1 points along,
+/// tangent 2 to the side of `across`. Orthonormal and finite for any arguments: where they do not
+/// span a plane (zero, parallel, not finite) a fixed choice takes their place.
+inline EdgeFrame frame_from_tangents(const Vector3& along, const Vector3& across) {
+  const auto dot = [](const Vector3& a, const Vector3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
+  const auto cross = [](const Vector3& a, const Vector3& b) {
+    return Vector3{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
+  const auto scaled = [](const Vector3& a, double s) {
+    return Vector3{a[0] * s, a[1] * s, a[2] * s};
+  };
+  const auto is_usable = [](double squared) { return squared > 1e-60 && squared < 1e200; };
+
+  EdgeFrame frame;
+  const double along2 = dot(along, along);
+  frame.tangent1 =
+      is_usable(along2) ? scaled(along, 1.0 / std::sqrt(along2)) : Vector3{1.0, 0.0, 0.0};
+  Vector3 normal = cross(frame.tangent1, across);
+  double normal2 = dot(normal, normal);
+  const double across2 = dot(across, across);
+  if (!is_usable(across2) || !(normal2 > 1e-12 * across2)) {
+    // The axis that tangent 1 is farthest from.
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+      if (std::abs(frame.tangent1[k]) < std::abs(frame.tangent1[axis])) axis = k;
+    Vector3 unit{};
+    unit[axis] = 1.0;
+    normal = cross(frame.tangent1, unit);
+    normal2 = dot(normal, normal);
+  }
+  frame.normal = scaled(normal, 1.0 / std::sqrt(normal2));
+  frame.tangent2 = cross(frame.normal, frame.tangent1);
+  return frame;
+}
+
+/// The frame of the coarser level's surface at an odd vertex, from the control points of the finer
+/// level before the detail is added: `predicted` = P * coarse, x, y, z per vertex. {tail, head} are
+/// the edge's even vertices, `wings` those of its EdgeLevel, `first_odd` the coarser level's number
+/// of vertices. In the interior these are Loop's limit tangents of the (always regular) odd vertex;
+/// on a crease the mean of both sides; on a boundary the B-spline curve and the surface beside it.
+template <class Real>
+EdgeFrame edge_frame(const Real* predicted, std::uint32_t first_odd,
+                     const std::array<std::uint32_t, 2>& vertices,
+                     const std::array<std::uint32_t, 4>& wings) {
+  const auto even = [&](std::size_t k) { return predicted + 3 * std::size_t{vertices[k]}; };
+  const auto odd = [&](std::size_t k) {
+    return predicted + 3 * (std::size_t{first_odd} + wings[k]);
+  };
+  const Real *tail = even(0), *head = even(1), *left_tail = odd(0), *left_head = odd(1);
+  Vector3 along{}, across{};
+  if (wings[2] == bitstream::kNone) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      along[k] = static_cast<double>(head[k]) - tail[k];
+      across[k] = static_cast<double>(left_tail[k]) + left_head[k] - tail[k] - head[k];
+    }
+  } else {
+    const Real *right_tail = odd(2), *right_head = odd(3);
+    for (std::size_t k = 0; k < 3; ++k) {
+      along[k] = 2.0 * (static_cast<double>(head[k]) - tail[k]) + left_head[k] - left_tail[k] +
+                 right_head[k] - right_tail[k];
+      across[k] = static_cast<double>(left_tail[k]) + left_head[k] - right_tail[k] - right_head[k];
+    }
+  }
+  return frame_from_tangents(along, across);
+}
+
+}  // namespace zerotree::surface

@@ -1,0 +1,104 @@
+#include "surface/subdivision_hierarchy.h"
+
+#include <opensubdiv/far/stencilTable.h>
+#include <opensubdiv/far/stencilTableFactory.h>
+
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "bitstream/base_edges.h"
+#include "surface/limit_stencils.h"
+#include "surface/loop_refiner.h"
+#include "surface/quadrature_mirror_filter.h"
+
+namespace zerotree::surface {
+
+namespace Far = OpenSubdiv::Far;
+
+namespace {
+
+SharedStencils detail_stencils(const RefinerLevel& level, WaveletTransform transform) {
+  switch (transform) {
+    case WaveletTransform::loop_quadrature_mirror:
+      return quadrature_mirror_stencils(level);
+  }
+  return {};
+}
+
+std::unique_ptr<const Far::StencilTable> subdivision_table(const Refiner& refiner) {
+  Far::StencilTableFactory::Options options;
+  options.interpolationMode = Far::StencilTableFactory::INTERPOLATE_VERTEX;
+  options.generateOffsets = true;
+  options.generateIntermediateLevels = true;
+  // Each level's stencils refer to the level before it, whose details come in between.
+  options.factorizeIntermediateLevels = false;
+  return std::unique_ptr<const Far::StencilTable>(
+      Far::StencilTableFactory::Create(refiner, options));
+}
+
+/// The rows `first_row` .. of the table that make `row_count` vertices of one level.
+SubdivisionStencils slice(const Far::StencilTable& table, std::size_t first_row,
+                          std::size_t row_count) {
+  const auto first = static_cast<std::ptrdiff_t>(first_row);
+  const auto last = static_cast<std::ptrdiff_t>(first_row + row_count);
+  SubdivisionStencils rows;
+  rows.sizes.assign(table.GetSizes().begin() + first, table.GetSizes().begin() + last);
+  rows.offsets.assign(table.GetOffsets().begin() + first, table.GetOffsets().begin() + last);
+  const int begin = rows.offsets.front();
+  const int end = rows.offsets.back() + rows.sizes.back();
+  for (int& offset : rows.offsets) offset -= begin;
+  const auto& indices = table.GetControlIndices();
+  const auto& weights = table.GetWeights();
+  rows.indices.assign(indices.begin() + begin, indices.begin() + end);
+  rows.weights.assign(weights.begin() + begin, weights.begin() + end);
+  return rows;
+}
+
+std::vector<std::array<std::uint32_t, 3>> triangles_of(const RefinerLevel& level) {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  triangles.reserve(static_cast<std::size_t>(level.GetNumFaces()));
+  for (int face = 0; face < level.GetNumFaces(); ++face) {
+    const auto corners = level.GetFaceVertices(face);
+    triangles.push_back({static_cast<std::uint32_t>(corners[0]),
+                         static_cast<std::uint32_t>(corners[1]),
+                         static_cast<std::uint32_t>(corners[2])});
+  }
+  return triangles;
+}
+
+}  // namespace
+
+SubdivisionHierarchy::SubdivisionHierarchy(const bitstream::BaseTopology& base, int levels,
+                                           WaveletTransform transform)
+    : base_(base) {
+  bitstream::BaseEdges numbered = bitstream::number_base_edges(base);
+  if (!numbered.error.empty()) throw std::invalid_argument(numbered.error);
+  base_edges_ = std::move(numbered.edges);
+  const std::unique_ptr<Refiner> refiner = make_loop_refiner(base, base_edges_, levels);
+  levels_.resize(static_cast<std::size_t>(levels) + 1);
+  for (int number = 0; number <= levels; ++number) {
+    const RefinerLevel& refined = refiner->GetLevel(number);
+    SubdivisionLevel& level = levels_[static_cast<std::size_t>(number)];
+    level.vertex_count = static_cast<std::uint32_t>(refined.GetNumVertices());
+    level.edge_count = static_cast<std::uint32_t>(refined.GetNumEdges());
+    level.triangles = triangles_of(refined);
+    level.limit = limit_stencils(refined);
+    if (number == levels) break;
+    level.details = detail_stencils(refined, transform);
+    level.edges = number == 0 ? base_edge_level(refined, base_edges_)
+                              : child_edge_level(
+                                    refiner->GetLevel(number - 1),
+                                    levels_[static_cast<std::size_t>(number) - 1].edges, refined);
+  }
+  if (levels == 0) return;
+  const auto table = subdivision_table(*refiner);
+  std::size_t first_row = 0;
+  for (int number = 0; number < levels; ++number) {
+    const std::size_t rows = levels_[static_cast<std::size_t>(number) + 1].vertex_count;
+    levels_[static_cast<std::size_t>(number)].subdivision = slice(*table, first_row, rows);
+    first_row += rows;
+  }
+}
+
+}  // namespace zerotree::surface
