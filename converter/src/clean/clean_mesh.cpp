@@ -35,7 +35,9 @@ void repair_indices(WorkingMesh& mesh, CleanReport& report) {
   const std::uint64_t unreferenced = drop_unreferenced_vertices(mesh);
   report.welded_vertices = weld_equal_positions(mesh);
   report.degenerate_faces = drop_degenerate_faces(mesh);
-  report.duplicate_faces = drop_duplicate_faces(mesh);
+  std::vector<std::uint8_t> folded;
+  report.duplicate_faces = drop_duplicate_faces(mesh, folded);
+  report.folded_faces = drop_folded_faces(mesh, folded);
   const std::uint64_t dropped = drop_unreferenced_vertices(mesh);
   // Of the second, those that welding took the name from are counted there.
   report.unreferenced_vertices = unreferenced + dropped - report.welded_vertices;
@@ -106,6 +108,7 @@ std::vector<std::pair<std::string, std::uint64_t>> list_repairs(const CleanRepor
       {"vertices welded to another at the same place", report.welded_vertices},
       {"faces with a repeated vertex dropped", report.degenerate_faces},
       {"duplicate faces dropped", report.duplicate_faces},
+      {"flat folds dropped", report.folded_faces},
       {"edges of more than two faces separated", report.non_manifold_edges},
       {"faces turned to agree with their neighbours", report.turned_faces},
       {"closed components turned inside out", report.turned_components},

@@ -25,6 +25,7 @@ struct CleanReport {
   std::uint64_t welded_vertices = 0;
   std::uint64_t degenerate_faces = 0;
   std::uint64_t duplicate_faces = 0;
+  std::uint64_t folded_faces = 0;
   std::uint64_t non_manifold_edges = 0;
   std::uint64_t turned_faces = 0;
   std::uint64_t turned_components = 0;
@@ -59,10 +60,11 @@ struct CleanMesh {
 /// Repairs `input` and checks the result (`check_manifold`).
 ///
 /// Exactly equal positions are welded; faces with a repeated vertex go, and of faces with the same
-/// three vertices the first stays. Where more than two faces meet at an edge they are paired, the
-/// flattest pairs of fitting orientation first, and what is left over gets a boundary there.
-/// Orientation follows the majority of each connected patch, and a closed component that the file
-/// orients inconsistently gets a positive volume; if the closed components enclose a negative
+/// three vertices the first stays (none, if they are the two sides of a fold that welding pressed
+/// flat and the surface goes on without them). Where more than two faces meet at an edge they are
+/// paired, the flattest pairs of fitting orientation first, and what is left over gets a boundary
+/// there. Orientation follows the majority of each connected patch, and a closed component that the
+/// file orients inconsistently gets a positive volume; if the closed components enclose a negative
 /// volume altogether, all of them are turned. Vertices where several fans meet are split. Faces
 /// of no area are removed by flipping their longest edge, which changes no point of the surface.
 ///

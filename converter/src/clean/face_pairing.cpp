@@ -30,12 +30,13 @@ void join(FacePairing& pairing, std::uint32_t a, std::uint32_t b) {
 }
 
 [[noreturn]] void refuse_one_sided(const WorkingMesh& mesh, std::uint32_t h) {
-  const Vector3d& p = mesh.positions[tail_of(mesh.triangles, h)];
+  const std::uint32_t vertex = tail_of(mesh.triangles, h);
+  const Vector3d p = mesh.positions[vertex] + Vector3d::Zero();  // no "-0"
   std::ostringstream message;
   message << "the surface is one-sided (like a Moebius strip): it cannot be oriented at face "
-          << mesh.source_face[h / 3] << ", vertex " << tail_of(mesh.triangles, h) << " (" << p.x()
-          << ", " << p.y() << ", " << p.z()
-          << "; counted from 0); cut the surface open there or remove the face";
+          << mesh.source_face[h / 3] << ", vertex " << mesh.source_vertex[vertex]
+          << " (both counted from 0) at (" << p.x() << ", " << p.y() << ", " << p.z()
+          << "); cut the surface open there or remove the face";
   throw Error(ExitCode::refused_topology, message.str());
 }
 

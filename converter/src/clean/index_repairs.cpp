@@ -4,6 +4,7 @@
 #include <numeric>
 #include <string>
 
+#include "clean/half_edges.h"
 #include "mesh/error.h"
 
 namespace zerotree::clean {
@@ -23,14 +24,20 @@ std::uint64_t keep_faces(WorkingMesh& mesh, const std::vector<std::uint8_t>& kee
   return dropped;
 }
 
+// Whether the corners, turned so that the lowest is first, ascend.
+bool is_even(const Triangle& t) {
+  return (t[0] < t[1]) + (t[1] < t[2]) + (t[2] < t[0]) == 2;
+}
+
 }  // namespace
 
 void check_input(const TriangleMesh& input) {
+  constexpr double largest_coordinate = 1e100;  // its third power is still a double
   for (std::size_t v = 0; v < input.positions.size(); ++v)
-    if (!input.positions[v].allFinite())
+    if (!(input.positions[v].cwiseAbs().maxCoeff() <= largest_coordinate))
       throw Error(ExitCode::unreadable_input,
                   "vertex " + std::to_string(v) +
-                      " has a coordinate that is not a finite number; repair the mesh");
+                      " has a coordinate that is not finite or beyond 1e100; repair the mesh");
   for (std::size_t f = 0; f < input.triangles.size(); ++f)
     for (std::uint32_t v : input.triangles[f])
       if (v >= input.positions.size())
@@ -70,7 +77,7 @@ std::uint64_t drop_degenerate_faces(WorkingMesh& mesh) {
   return keep_faces(mesh, keep);
 }
 
-std::uint64_t drop_duplicate_faces(WorkingMesh& mesh) {
+std::uint64_t drop_duplicate_faces(WorkingMesh& mesh, std::vector<std::uint8_t>& folded) {
   // Only faces of the same lowest vertex can be equal: sorted within buckets, as edges are.
   std::vector<Triangle> sorted(mesh.triangles);
   for (Triangle& t : sorted) std::sort(t.begin(), t.end());
@@ -82,13 +89,50 @@ std::uint64_t drop_duplicate_faces(WorkingMesh& mesh) {
   for (std::uint32_t f = 0; f < sorted.size(); ++f) order[fill[sorted[f][0]]++] = f;
 
   std::vector<std::uint8_t> keep(sorted.size(), 1);
+  std::vector<std::int32_t> balance(sorted.size(), 0);  // copies like the kept face less others
+  std::vector<std::uint8_t> has_copies(sorted.size(), 0);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const auto begin = order.begin() + bucket[v], end = order.begin() + bucket[v + 1];
     std::sort(begin, end, [&](std::uint32_t a, std::uint32_t b) {
       return sorted[a] != sorted[b] ? sorted[a] < sorted[b] : a < b;
     });
-    for (auto f = begin; f != end; ++f)
-      if (f != begin && sorted[*f] == sorted[*(f - 1)]) keep[*f] = 0;
+    std::uint32_t kept = 0;
+    for (auto f = begin; f != end; ++f) {
+      if (f == begin || sorted[*f] != sorted[kept]) kept = *f;
+      balance[kept] += is_even(mesh.triangles[*f]) == is_even(mesh.triangles[kept]) ? 1 : -1;
+      if (*f == kept) continue;
+      keep[*f] = 0;
+      has_copies[kept] = 1;
+    }
+  }
+  folded.clear();
+  for (std::size_t f = 0; f < keep.size(); ++f)
+    if (keep[f] != 0) folded.push_back(has_copies[f] != 0 && balance[f] == 0 ? 1 : 0);
+  return keep_faces(mesh, keep);
+}
+
+std::uint64_t drop_folded_faces(WorkingMesh& mesh, const std::vector<std::uint8_t>& folded) {
+  if (std::find(folded.begin(), folded.end(), 1) == folded.end()) return 0;
+  const EdgeTable edges = make_edge_table(mesh.triangles, mesh.positions.size());
+  std::vector<std::uint32_t> edge_of(mesh.triangles.size() * 3);
+  std::vector<std::uint32_t> faces_at(edges.edge_count());
+  for (std::uint32_t e = 0; e < edges.edge_count(); ++e) {
+    faces_at[e] = edges.first[e + 1] - edges.first[e];
+    for (std::uint32_t i = edges.first[e]; i < edges.first[e + 1]; ++i)
+      edge_of[edges.half_edges[i]] = e;
+  }
+  std::vector<std::uint8_t> keep(mesh.triangles.size(), 1);
+  for (std::size_t f = 0; f < folded.size(); ++f) {
+    if (folded[f] == 0) continue;
+    bool has_two = false, has_one = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t others = faces_at[edge_of[3 * f + k]] - 1;
+      has_two |= others >= 2;
+      has_one |= others == 1;
+    }
+    if (!has_two || has_one) continue;
+    keep[f] = 0;
+    for (std::size_t k = 0; k < 3; ++k) --faces_at[edge_of[3 * f + k]];
   }
   return keep_faces(mesh, keep);
 }

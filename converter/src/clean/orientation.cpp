@@ -136,7 +136,7 @@ OrientationCounts orient_faces(WorkingMesh& mesh, OrientationForest& forest,
   OrientationCounts counts;
   for (const FaceSet& set : sets) {
     counts.turned_faces += set.against_majority;
-    counts.turned_components += set.turn;
+    counts.turned_components += set.turn && set.faces > 0;
   }
   for (std::uint32_t f = 0; f < turned.size(); ++f)
     if (sets[forest.find(f).first].turn) turned[f] ^= 1;

@@ -89,22 +89,25 @@ std::uint64_t split_vertex_fans(WorkingMesh& mesh, const std::vector<std::uint32
 
 std::uint64_t divide_shared_edges(WorkingMesh& mesh, std::vector<std::uint32_t>& mates) {
   std::uint64_t divided = 0;
-  // Dividing renumbers half-edges of the faces at hand, so a face is cut once a round.
+  // Dividing renumbers half-edges of the faces that it cuts, so each round leaves those alone that
+  // it has cut, or made, already; a round that skips some has cut others, so this ends.
   for (bool again = true; again;) {
     again = false;
     const EdgeTable edges = make_edge_table(mesh.triangles, mesh.positions.size());
     std::vector<std::uint8_t> cut(mesh.triangles.size(), 0);
+    const auto is_cut = [&cut](std::uint32_t h) {
+      return h != no_half_edge && (h / 3 >= cut.size() || cut[h / 3] != 0);
+    };
     for (std::size_t e = 0; e < edges.edge_count(); ++e) {
-      const std::uint32_t begin = edges.first[e], end = edges.first[e + 1];
-      const std::uint32_t kept = edges.half_edges[begin];
-      for (std::uint32_t i = begin + 1; i < end; ++i) {
+      const std::uint32_t kept = edges.half_edges[edges.first[e]];
+      for (std::uint32_t i = edges.first[e] + 1; i < edges.first[e + 1]; ++i) {
         const std::uint32_t h = edges.half_edges[i], g = mates[h];
-        if (g == kept || (g != no_half_edge && g < h)) continue;  // a pair is divided once
+        if (g == kept) continue;
         again = true;
-        if (cut[h / 3] != 0 || (g != no_half_edge && cut[g / 3] != 0)) continue;
+        if (is_cut(h) || is_cut(g) || is_cut(kept)) continue;
+        divide_edge(mesh, mates, h);
         cut[h / 3] = 1;
         if (g != no_half_edge) cut[g / 3] = 1;
-        divide_edge(mesh, mates, h);
         ++divided;
       }
     }

@@ -1,5 +1,6 @@
 #include "import/polygon_triangulation.h"
 
+#include <Eigen/Geometry>
 #include <span>
 
 namespace zerotree::importer {
