@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "bitstream/base_hash.h"
+#include "bitstream/base_traversal.h"
 #include "bitstream/stream_decoder.h"
 #include "surface/surface_synthesis.h"
 
@@ -112,6 +114,10 @@ void add_final_status(const StreamDecoder& decoder, const std::string& pointer, 
     issues.push_back({IssueCode::payload_incomplete, pointer, ""});
 }
 
+bool is_for_another_base(const StreamDecoder& decoder, const gltf::ProgressiveAsset& asset) {
+  return decoder.header().base_hash != bitstream::hash_base(asset.base, flat(asset.control_points));
+}
+
 bool is_too_large(const BaseTopology& base, int levels, std::uint64_t max_vertices,
                   const std::string& pointer, Issues& issues) {
   const std::uint64_t count = most_vertices(base, levels);
@@ -153,6 +159,11 @@ PayloadFacts check_payload(const gltf::ProgressiveAsset& asset, const std::strin
   PayloadFacts facts{asset.levels, asset.base.vertex_count, asset.base.triangles.size(), 0, 0};
   if (is_too_large(asset.base, asset.levels, max_vertices, extension + "/levels", issues))
     return facts;
+  const bitstream::ConnectivityStatus base_status = bitstream::check_base_topology(asset.base);
+  if (!base_status.ok()) {
+    issues.push_back({IssueCode::base_unsupported, mesh, base_status.problem});
+    return facts;
+  }
   bitstream::Limits limits;
   limits.max_vertices = max_vertices;
   StreamDecoder decoder(asset.base, flat(asset.control_points), limits);
@@ -162,10 +173,13 @@ PayloadFacts check_payload(const gltf::ProgressiveAsset& asset, const std::strin
     issues.push_back({IssueCode::base_unsupported, mesh, error.what()});
     return facts;
   }
-  add_final_status(decoder, payload, issues);
   facts.bytes_decoded = decoder.bytes_consumed();
-  if (!decoder.header_ready()) return facts;
-  if (decoder.header().levels != asset.levels)
+  const bool has_header = decoder.header_ready();
+  if (has_header && is_for_another_base(decoder, asset))
+    issues.push_back({IssueCode::payload_base_mismatch, payload, ""});
+  else
+    add_final_status(decoder, payload, issues);
+  if (has_header && decoder.header().levels != asset.levels)
     issues.push_back(
         {IssueCode::payload_levels_mismatch, extension + "/levels",
          std::to_string(asset.levels) + " and " + std::to_string(decoder.header().levels)});
