@@ -44,7 +44,7 @@ class StreamDecoder {
   const StreamHeader& header() const;
 
   /// Connectivity and sharp tags are known, so a surface can be made. Before, the four accessors
-  /// below return empty things.
+  /// below mean nothing.
   bool base_ready() const;
   const BaseTopology& base() const;
   const std::vector<BaseEdge>& base_edges() const;

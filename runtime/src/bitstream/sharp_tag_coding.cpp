@@ -1,0 +1,35 @@
+#include "bitstream/sharp_tag_coding.h"
+
+namespace zerotree::bitstream {
+namespace {
+
+std::array<std::uint32_t, 2> ascending(const BaseEdge& edge) {
+  return {std::min(edge.vertices[0], edge.vertices[1]),
+          std::max(edge.vertices[0], edge.vertices[1])};
+}
+
+}  // namespace
+
+void SharpTagCoding::set_tags(const BaseTopology& base) {
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    edge_flags_[e] =
+        std::binary_search(base.crease_edges.begin(), base.crease_edges.end(), ascending(edges_[e]))
+            ? 1
+            : 0;
+  }
+  for (const std::uint32_t v : base.corner_vertices) vertex_flags_[v] = 1;
+}
+
+void SharpTagCoding::get_tags(BaseTopology& base) const {
+  base.crease_edges.clear();
+  base.corner_vertices.clear();
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    if (edge_flags_[e] != 0) base.crease_edges.push_back(ascending(edges_[e]));
+  }
+  std::sort(base.crease_edges.begin(), base.crease_edges.end());
+  for (std::uint32_t v = 0; v < vertex_flags_.size(); ++v) {
+    if (vertex_flags_[v] != 0) base.corner_vertices.push_back(v);
+  }
+}
+
+}  // namespace zerotree::bitstream
