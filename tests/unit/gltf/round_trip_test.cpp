@@ -135,6 +135,24 @@ TEST(Writer, RefusesBrokenAssets) {
   refuses([](auto& a) { a.source_diagonal = 0; });
 }
 
+// What the writer writes is what the specification's schema describes.
+TEST(Schema, KnowsAndRequiresWhatIsWritten) {
+  const auto bytes =
+      read_file(ZEROTREE_SPEC_DIR "/schema/mesh.ZEROTREE_mesh_progressive.schema.json");
+  const auto schema = nlohmann::json::parse(bytes);
+  const GltfDocument document("x.glb", glb_bytes(test::sample_asset(test::base_shapes()[0], 9)));
+  const nlohmann::json& extension = document.root()
+                                        .member("meshes")
+                                        .element(0)
+                                        .member("extensions")
+                                        .member(kExtensionName)
+                                        .value();
+  for (const auto& [key, value] : extension.items())
+    EXPECT_TRUE(schema["properties"].contains(key)) << key;
+  for (const auto& key : schema["required"]) EXPECT_TRUE(extension.contains(key)) << key;
+  EXPECT_EQ(schema["properties"]["levels"]["maximum"], kMaxLevels);
+}
+
 TEST(MonotonePrefixes, SortsAndNeverUnderstates) {
   const auto table = monotone_prefixes({{400, 0.2}, {0, 1.0}, {100, 0.1}, {200, 0.5}, {200, 0.4}});
   ASSERT_EQ(table.size(), 4u);
