@@ -17,6 +17,9 @@ namespace {
 
 const Eigen::Vector3f clay(0.72F, 0.66F, 0.58F);
 constexpr float darkest_ground = 0.55F;
+constexpr float shadow_border = 0.12F;
+// Shadow on the bare ground shows noise more than shade on relief does.
+constexpr int ground_ray_factor = 3;
 
 // What one sample sees: premultiplied linear colour and coverage.
 using Sample = Eigen::Vector4f;
@@ -58,7 +61,9 @@ class Renderer {
                                                       sy / static_cast<float>(options_.height));
         sum += sample(direction.normalized(), sequence);
       }
-    return to_pixel(sum / static_cast<float>(n * n));
+    sum /= static_cast<float>(n * n);
+    const bool only_shadow = sum.head<3>().isZero();
+    return to_pixel(only_shadow ? Sample(sum * border_fade(x, y)) : sum);
   }
 
  private:
@@ -71,6 +76,16 @@ class Renderer {
     return {colour.x(), colour.y(), colour.z(), 1.0F};
   }
 
+  // The shadow fades towards the image's border, so that no edge shows where it is cut off.
+  float border_fade(int x, int y) const {
+    const float across = static_cast<float>(std::min(x, options_.width - 1 - x)) /
+                         static_cast<float>(options_.width);
+    const float upwards = static_cast<float>(std::min(y, options_.height - 1 - y)) /
+                          static_cast<float>(options_.height);
+    const float share = std::clamp(std::min(across, upwards) / shadow_border, 0.0F, 1.0F);
+    return share * share * (3.0F - 2.0F * share);
+  }
+
   // The ground itself is not seen, only the shadow on it.
   Sample ground(const Eigen::Vector3f& direction, PixelSequence& sequence) const {
     const float fall = -direction.dot(camera_.world_up);
@@ -78,8 +93,9 @@ class Renderer {
     if (fall <= 1e-3F || height <= 0.0F) return Sample::Zero();
     const Eigen::Vector3f position = camera_.eye + height / fall * direction;
     if (position.norm() > 2.5F) return Sample::Zero();
-    const float hidden = light_.ground_shadow(position, options_.sky_rays, sequence);
-    return {0.0F, 0.0F, 0.0F, darkest_ground * hidden};
+    const float hidden =
+        light_.ground_shadow(position, ground_ray_factor * options_.sky_rays, sequence);
+    return {0.0F, 0.0F, 0.0F, darkest_ground * hidden * hidden};
   }
 
   LitPoint lit_point(const RayHit& hit, const Eigen::Vector3f& direction) const {

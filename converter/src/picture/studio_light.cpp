@@ -12,7 +12,7 @@ namespace {
 constexpr float surface_offset = 1e-4F;
 // Farther surfaces do not darken: keeps broad hollows from going black.
 constexpr float occlusion_reach = 0.7F;
-constexpr float ground_reach = 0.6F;
+constexpr float ground_reach = 0.4F;
 // Radius of the key lamp seen from the model: how soft its shadows are.
 constexpr float key_radius = 0.22F;
 
