@@ -1,0 +1,83 @@
+#include "encoded_assets.h"
+
+#include <cmath>
+
+#include "bitstream/base_edges.h"
+#include "bitstream/base_traversal.h"
+#include "encode/encode.h"
+#include "sample_assets.h"
+
+namespace zerotree::test {
+namespace {
+
+constexpr int kLevels = 2;
+
+bitstream::BaseTopology topology_of(const Shape& shape) {
+  bitstream::BaseTopology base;
+  base.vertex_count = static_cast<std::uint32_t>(shape.mesh.positions.size());
+  base.triangles = shape.mesh.triangles;
+  base.crease_edges = shape.crease_edges;
+  base.corner_vertices = shape.corner_vertices;
+  return base;
+}
+
+analysis::WaveletDecomposition small_details(const bitstream::BaseTopology& base,
+                                             std::vector<Eigen::Vector3d> control_points,
+                                             double scale) {
+  analysis::WaveletDecomposition decomposition;
+  decomposition.base_control_points = std::move(control_points);
+  std::size_t edges = bitstream::number_base_edges(base).edges.size();
+  std::size_t faces = base.triangles.size();
+  for (int level = 0; level < kLevels; ++level) {
+    auto& details = decomposition.details.emplace_back(edges, Eigen::Vector3d::Zero());
+    for (std::size_t e = 0; e < edges; ++e) {
+      const double phase = static_cast<double>(e) * 0.7;
+      details[e] =
+          scale * std::ldexp(0.02, -2 * level) *
+          Eigen::Vector3d(std::sin(phase), 0.3 * std::cos(phase), 0.2 * std::sin(3 * phase));
+    }
+    edges = 2 * edges + 3 * faces;
+    faces *= 4;
+  }
+  return decomposition;
+}
+
+encode::EncodeOptions options(bool embed_base, double scale) {
+  encode::EncodeOptions options;
+  options.finest_step = scale * 1e-3;
+  options.embed_base = embed_base;
+  return options;
+}
+
+}  // namespace
+
+gltf::ProgressiveAsset encoded_asset(const Shape& shape, double detail_scale) {
+  gltf::ProgressiveAsset asset = sample_asset(shape, 1);
+  const bitstream::BaseTopology base = topology_of(shape);
+  // The stream is bound to the positions as the accessor holds them.
+  std::vector<Eigen::Vector3d> control_points;
+  for (const Eigen::Vector3f& p : asset.control_points) control_points.push_back(p.cast<double>());
+  asset.payload = encode::encode(base, small_details(base, control_points, detail_scale),
+                                 options(false, detail_scale))
+                      .bytes;
+  asset.payload_length = asset.payload.size();
+  asset.levels = kLevels;
+  asset.bounds_min.array() -= 0.25f;
+  asset.bounds_max.array() += 0.25f;
+  asset.prefixes.clear();
+  for (std::uint64_t part = 0; part <= 4; ++part)
+    asset.prefixes.push_back(
+        {asset.payload_length * part / 4, 0.5 / static_cast<double>(part + 1)});
+  return asset;
+}
+
+std::vector<std::uint8_t> encoded_stream(const Shape& shape) {
+  const bitstream::BaseTopology unordered = topology_of(shape);
+  const bitstream::BaseOrder order = bitstream::canonical_base_order(unordered);
+  const bitstream::BaseTopology base = bitstream::reorder(unordered, order);
+  std::vector<Eigen::Vector3d> control_points;
+  for (std::uint32_t old : order.vertices) control_points.push_back(shape.mesh.positions[old]);
+  return encode::encode(base, small_details(base, control_points, 1), options(true, 1)).bytes;
+}
+
+}  // namespace zerotree::test

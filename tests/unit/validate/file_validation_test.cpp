@@ -1,0 +1,251 @@
+#include "validate/file_validation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "encoded_assets.h"
+#include "export/atomic_file.h"
+#include "gltf/glb_container.h"
+#include "gltf/progressive_writer.h"
+#include "mesh/error.h"
+#include "sample_assets.h"
+
+namespace zerotree::validate {
+namespace {
+
+using nlohmann::json;
+using test::TemporaryFolder;
+
+constexpr const char* kExtensionPointer = "/meshes/0/extensions/ZEROTREE_mesh_progressive";
+
+std::vector<std::string> codes(const ValidationReport& report) {
+  std::vector<std::string> ids;
+  for (const gltf::Issue& issue : report.issues) ids.push_back(gltf::issue_text(issue.code).id);
+  return ids;
+}
+
+ValidationReport validate_bytes(std::span<const std::uint8_t> bytes, const char* name = "a.glb",
+                                const ValidateOptions& options = {}) {
+  const TemporaryFolder folder;
+  exporter::write_file_atomically(folder / name, bytes);
+  return validate_file(folder / name, options);
+}
+
+class EachShape : public testing::TestWithParam<test::Shape> {};
+
+TEST_P(EachShape, RightFilesHaveNoIssue) {
+  const gltf::ProgressiveAsset asset = test::encoded_asset(GetParam());
+  const ValidationReport report = validate_bytes(gltf::glb_bytes(asset));
+  EXPECT_EQ(codes(report), std::vector<std::string>{});
+  ASSERT_EQ(report.meshes.size(), 1u);
+  EXPECT_EQ(report.meshes[0].levels, 2);
+  EXPECT_EQ(report.meshes[0].base_vertices, asset.base.vertex_count);
+  EXPECT_EQ(report.meshes[0].payload_bytes, asset.payload.size());
+  EXPECT_GT(report.meshes[0].finest_vertices, asset.base.vertex_count);
+}
+
+TEST_P(EachShape, RightSplitFilesHaveNoIssue) {
+  const TemporaryFolder folder;
+  gltf::write_split(folder / "a.gltf", test::encoded_asset(GetParam()));
+  const ValidationReport report = validate_file(folder / "a.gltf");
+  EXPECT_EQ(codes(report), std::vector<std::string>{});
+  EXPECT_EQ(report.mime_type, "model/gltf+json");
+}
+
+TEST_P(EachShape, RightStreamsHaveNoIssue) {
+  const auto stream = test::encoded_stream(GetParam());
+  const ValidationReport report = validate_bytes(stream, "a.zt");
+  EXPECT_EQ(codes(report), std::vector<std::string>{});
+  ASSERT_EQ(report.meshes.size(), 1u);
+  EXPECT_EQ(report.meshes[0].base_vertices, GetParam().mesh.positions.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, EachShape, testing::ValuesIn(test::base_shapes()),
+                         [](const auto& shape) { return shape.param.name; });
+
+// A right file whose JSON is changed.
+std::vector<std::uint8_t> with_json(const std::function<void(json&)>& change) {
+  const auto whole = gltf::glb_bytes(test::encoded_asset(test::base_shapes()[0]));
+  const gltf::GlbChunks chunks = gltf::split_glb(whole);
+  json root = json::parse(chunks.json);
+  change(root);
+  std::vector<std::uint8_t> bytes = gltf::glb_head(root.dump(), chunks.binary.size());
+  bytes.insert(bytes.end(), chunks.binary.begin(), chunks.binary.end());
+  return bytes;
+}
+
+struct BrokenVariant {
+  const char* code;
+  const char* pointer;
+  std::function<void(json&)> change;
+};
+
+json& extension(json& root) {
+  return root["meshes"][0]["extensions"][gltf::kExtensionName];
+}
+
+// clang-format off
+const std::vector<BrokenVariant>& broken_variants() {
+  static const std::vector<BrokenVariant> variants = {
+      {"EXTENSION_NOT_LISTED", "/extensionsUsed", [](json& r) { r.erase("extensionsUsed"); }},
+      {"EXTENSION_REQUIRED", "/extensionsRequired",
+       [](json& r) { r["extensionsRequired"] = {gltf::kExtensionName}; }},
+      {"EXTENSION_MISPLACED", "/bufferViews/0/extensions/ZEROTREE_mesh_progressive",
+       [](json& r) { r["bufferViews"][0]["extensions"][gltf::kExtensionName] = json::object(); }},
+      {"PROPERTY_MISSING", "/prefixes", [](json& r) { extension(r).erase("prefixes"); }},
+      {"PROPERTY_TYPE", "/levels", [](json& r) { extension(r)["levels"] = "two"; }},
+      {"PROPERTY_VALUE", "/levels", [](json& r) { extension(r)["levels"] = 15; }},
+      {"PROPERTY_VALUE", "/bounds", [](json& r) { extension(r)["bounds"]["min"][1] = 99; }},
+      {"PROPERTY_UNKNOWN", "/levles", [](json& r) { extension(r)["levles"] = 2; }},
+      {"INDEX_UNRESOLVED", "/bufferView", [](json& r) { extension(r)["bufferView"] = 77; }},
+      {"PREFIX_ORDER", "/prefixes/2/byteLength",
+       [](json& r) { extension(r)["prefixes"][2]["byteLength"] = 1; }},
+      {"PREFIX_ORDER", "/prefixes/3/geometricError",
+       [](json& r) { extension(r)["prefixes"][3]["geometricError"] = 9.5; }},
+      {"PREFIX_END", "/prefixes", [](json& r) { extension(r)["prefixes"].erase(4); }},
+      {"BUFFER_UNREADABLE", "/buffers/0/uri", [](json& r) { r["buffers"][0]["uri"] = "gone.bin"; }},
+      {"VIEW_OUT_OF_BUFFER", "/bufferViews/3",
+       [](json& r) { r["bufferViews"][3]["byteLength"] = 1 << 20; }},
+      {"ACCESSOR_OUT_OF_VIEW", "/accessors/1", [](json& r) { r["accessors"][1]["count"] = 1000; }},
+      {"ACCESSOR_UNSUPPORTED", "/accessors/1", [](json& r) { r["accessors"][1]["type"] = "VEC2"; }},
+      {"BASE_UNSUPPORTED", "/meshes/0/primitives/0/mode",
+       [](json& r) { r["meshes"][0]["primitives"][0]["mode"] = 5; }},
+      {"BASE_INDEX_OUT_OF_RANGE", "/meshes/0/primitives/0/indices",
+       [](json& r) { r["accessors"][1]["count"] = 3; r["accessors"][2]["count"] = 3; }},
+      {"PAYLOAD_VIEW_INVALID", "/bufferViews/3",
+       [](json& r) { r["bufferViews"][3]["target"] = 34962; }},
+      {"PAYLOAD_NOT_LAST", "/bufferViews/3",
+       [](json& r) { r["bufferViews"][3]["byteLength"] = 8; }},
+      {"PAYLOAD_LEVELS_MISMATCH", "/levels", [](json& r) { extension(r)["levels"] = 1; }},
+      {"PAYLOAD_TOO_LARGE", "/levels", [](json& r) { extension(r)["levels"] = 14; }},
+      {"SURFACE_OUT_OF_BOUNDS", "/prefixes/4",
+       [](json& r) { extension(r)["bounds"]["max"][0] = 0.1; }},
+      {"GLTF_VERSION_UNSUPPORTED", "/asset/version", [](json& r) { r["asset"]["version"] = "1.0"; }},
+  };
+  return variants;
+}
+// clang-format on
+
+TEST(BrokenFile, EachDefectHasItsCodeAndPlace) {
+  for (const BrokenVariant& variant : broken_variants()) {
+    const ValidationReport report = validate_bytes(with_json(variant.change));
+    const bool is_found =
+        std::any_of(report.issues.begin(), report.issues.end(), [&](const gltf::Issue& issue) {
+          return std::string(gltf::issue_text(issue.code).id) == variant.code &&
+                 issue.pointer.ends_with(variant.pointer);
+        });
+    EXPECT_TRUE(is_found) << variant.code << " at " << variant.pointer << " is not in "
+                          << to_json(report)["issues"].dump(1);
+  }
+}
+
+TEST(BrokenFile, AnotherBaseIsNamed) {
+  gltf::ProgressiveAsset asset = test::encoded_asset(test::base_shapes()[0]);
+  asset.control_points[5].x() += 0.001f;
+  const ValidationReport report = validate_bytes(gltf::glb_bytes(asset));
+  EXPECT_EQ(codes(report), std::vector<std::string>{"PAYLOAD_BASE_MISMATCH"});
+}
+
+TEST(BrokenFile, ABrokenPayloadIsNamed) {
+  gltf::ProgressiveAsset asset = test::encoded_asset(test::base_shapes()[0]);
+  asset.payload[0] ^= 1;
+  const ValidationReport report = validate_bytes(gltf::glb_bytes(asset));
+  EXPECT_EQ(codes(report), std::vector<std::string>{"PAYLOAD_BROKEN"});
+}
+
+TEST(BrokenFile, ASurfaceBeyondFloatsIsNamed) {
+  const auto asset = test::encoded_asset(test::base_shapes()[0], 1e41);
+  const std::vector<std::string> found = codes(validate_bytes(gltf::glb_bytes(asset)));
+  EXPECT_NE(std::find(found.begin(), found.end(), "SURFACE_NOT_FINITE"), found.end());
+}
+
+TEST(BrokenFile, ABaseThatIsNoManifoldIsNamed) {
+  gltf::ProgressiveAsset asset = test::encoded_asset(test::base_shapes()[0]);
+  std::swap(asset.base.triangles[0][0], asset.base.triangles[0][1]);
+  const ValidationReport report = validate_bytes(gltf::glb_bytes(asset));
+  EXPECT_EQ(codes(report), std::vector<std::string>{"BASE_UNSUPPORTED"});
+}
+
+TEST(BrokenFile, ACutIsNamedAndWhatIsThereDecodes) {
+  auto bytes = gltf::glb_bytes(test::encoded_asset(test::base_shapes()[0]));
+  bytes.resize(bytes.size() - 16);
+  const ValidationReport report = validate_bytes(bytes);
+  EXPECT_EQ(codes(report),
+            (std::vector<std::string>{"GLB_TRUNCATED", "PAYLOAD_TRUNCATED", "PAYLOAD_INCOMPLETE"}));
+}
+
+TEST(BrokenFile, UnknownBytesAreNamed) {
+  const std::string text = "solid cube";
+  EXPECT_EQ(codes(validate_bytes(std::vector<std::uint8_t>(text.begin(), text.end()))),
+            std::vector<std::string>{"FILE_FORMAT_UNKNOWN"});
+  EXPECT_EQ(codes(validate_bytes({})), std::vector<std::string>{"FILE_FORMAT_UNKNOWN"});
+  const std::string brace = "{\"asset\":";
+  EXPECT_EQ(codes(validate_bytes(std::vector<std::uint8_t>(brace.begin(), brace.end()))),
+            std::vector<std::string>{"JSON_INVALID"});
+}
+
+TEST(CutStream, IsInformation) {
+  auto stream = test::encoded_stream(test::base_shapes()[0]);
+  stream.resize(stream.size() / 2);
+  const ValidationReport report = validate_bytes(stream, "a.zt");
+  EXPECT_EQ(codes(report), std::vector<std::string>{"PAYLOAD_INCOMPLETE"});
+  EXPECT_EQ(count_issues(report, gltf::Severity::error), 0u);
+}
+
+// Most corruptions decode to another surface, those of the header are refused; none crashes.
+TEST(CorruptedPayload, AnyByteMayBeWrong) {
+  const gltf::ProgressiveAsset asset = test::encoded_asset({"t", test::tetrahedron(), {}, {}});
+  std::mt19937 random(3);
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < asset.payload.size(); ++i) {
+    gltf::ProgressiveAsset broken = asset;
+    broken.payload[i] = static_cast<std::uint8_t>(broken.payload[i] ^ (1 + random() % 255));
+    for (const std::string& code : codes(validate_bytes(gltf::glb_bytes(broken)))) {
+      EXPECT_TRUE(code.starts_with("PAYLOAD_") || code.starts_with("SURFACE_")) << code;
+      refused += code == "PAYLOAD_BROKEN" || code == "PAYLOAD_BASE_MISMATCH";
+    }
+  }
+  EXPECT_GE(refused, 8u);  // at least every byte of the base's hash
+}
+
+TEST(OrdinaryGltf, IsRight) {
+  const std::string text = R"({"asset":{"version":"2.0","generator":"someone"}})";
+  const ValidationReport report =
+      validate_bytes(std::vector<std::uint8_t>(text.begin(), text.end()), "a.gltf");
+  EXPECT_EQ(codes(report), std::vector<std::string>{"EXTENSION_ABSENT"});
+  EXPECT_EQ(count_issues(report, gltf::Severity::error), 0u);
+  EXPECT_EQ(report.generator, "someone");
+}
+
+TEST(MissingFile, CannotBeValidated) {
+  EXPECT_THROW(validate_file("no/such/file.glb"), Error);
+}
+
+TEST(Report, HasTheShapeOfGltfValidators) {
+  const json report = to_json(validate_bytes(with_json([](json& r) { extension(r)["x"] = 1; })));
+  EXPECT_EQ(report["mimeType"], "model/gltf-binary");
+  EXPECT_TRUE(report["uri"].is_string() && report["validatorVersion"].is_string());
+  EXPECT_EQ(report["issues"]["numErrors"], 0);
+  EXPECT_EQ(report["issues"]["numWarnings"], 1);
+  const json& message = report["issues"]["messages"][0];
+  EXPECT_EQ(message["code"], "PROPERTY_UNKNOWN");
+  EXPECT_EQ(message["severity"], 1);
+  EXPECT_EQ(message["pointer"], std::string(kExtensionPointer) + "/x");
+  EXPECT_TRUE(message["message"].is_string());
+  EXPECT_EQ(report["info"]["extensionsUsed"], json({gltf::kExtensionName}));
+}
+
+TEST(IssueTable, EveryRowIsComplete) {
+  for (const gltf::IssueText& row : gltf::issue_table()) {
+    EXPECT_FALSE(std::string(row.id).empty());
+    EXPECT_FALSE(std::string(row.text).empty());
+    EXPECT_FALSE(std::string(row.what_to_do).empty());
+  }
+}
+
+}  // namespace
+}  // namespace zerotree::validate
