@@ -12,11 +12,26 @@
 namespace zerotree::importer {
 namespace {
 
-tinygltf::Model parse_model(const GltfContainer& container, const std::string& name) {
-  // Buffers are resolved already, images are not needed: tinygltf must not go and look for them.
-  nlohmann::json document = container.document;
+// Buffers are resolved already and images are not needed: tinygltf must not go and look for them.
+// It also refuses indices that only the Draco stream holds.
+nlohmann::json without_what_is_not_parsed(nlohmann::json document) {
   document.erase("buffers");
   document.erase("images");
+  const auto meshes = document.find("meshes");
+  if (meshes == document.end() || !meshes->is_array()) return document;
+  for (nlohmann::json& mesh : *meshes) {
+    if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array())
+      continue;
+    for (nlohmann::json& primitive : mesh["primitives"])
+      if (primitive.is_object() && primitive.contains("extensions") &&
+          primitive["extensions"].contains("KHR_draco_mesh_compression"))
+        primitive.erase("indices");
+  }
+  return document;
+}
+
+tinygltf::Model parse_model(const GltfContainer& container, const std::string& name) {
+  const nlohmann::json document = without_what_is_not_parsed(container.document);
   const std::string text = document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   tinygltf::TinyGLTF parser;
   tinygltf::Model model;

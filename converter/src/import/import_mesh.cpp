@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "import/import_error.h"
-#include "import/input_bytes.h"
 #include "import/mesh_readers.h"
 #include "import/polygon_triangulation.h"
 
@@ -91,7 +90,10 @@ PolygonMesh read_polygons(Reader reader, const InputBytes& input, const ImportOp
 ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options,
                          const Progress& progress) {
   report_progress(progress, "reading", 0.0);
-  InputBytes input = read_input(path, options.max_decoded_bytes);
+  return import_mesh(read_input(path, options.max_decoded_bytes), options, progress);
+}
+
+ImportedMesh import_mesh(InputBytes input, const ImportOptions& options, const Progress& progress) {
   const Reader reader = reader_for(input);
   if (reader == nullptr)
     refuse(input.name, "is of no known format; give PLY, OBJ, OFF, STL, glTF, GLB or DRC");

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "import/imported_mesh.h"
+#include "import/input_bytes.h"
 #include "mesh/progress.h"
 
 namespace zerotree::importer {
@@ -18,5 +19,9 @@ namespace zerotree::importer {
 /// size; memory about that of the file plus the result.
 ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options,
                          const Progress& progress);
+
+/// The same for a file that is in memory already, unpacked; `input.path` only tells where a glTF's
+/// other files lie.
+ImportedMesh import_mesh(InputBytes input, const ImportOptions& options, const Progress& progress);
 
 }  // namespace zerotree::importer

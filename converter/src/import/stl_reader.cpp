@@ -19,6 +19,7 @@ bool is_ascii(const std::string& bytes) {
   if (bytes.size() >= header_size &&
       bytes.size() == header_size + facet_size * stated_facets(bytes))
     return false;
+  if (std::string_view(bytes).substr(0, 512).find('\0') != std::string_view::npos) return false;
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   return first != bytes.npos && std::string_view(bytes).substr(first).starts_with("solid");
 }
