@@ -51,8 +51,11 @@ TEST(WaveletFilters, AreOrthogonalOnTheRegularTorus) {
   const Eigen::MatrixXd products = q.transpose() * q;
   for (int i = 0; i < q.cols(); ++i) {
     EXPECT_NEAR(products(i, i), 346.0 / 256.0, 1e-6);
-    for (int j = 0; j < q.cols(); ++j)
-      if (orientation(i) != orientation(j)) EXPECT_NEAR(products(i, j), 0.0, 1e-6);
+    for (int j = 0; j < q.cols(); ++j) {
+      if (orientation(i) != orientation(j)) {
+        EXPECT_NEAR(products(i, j), 0.0, 1e-6);
+      }
+    }
   }
 }
 
@@ -70,7 +73,7 @@ TEST(WaveletFilters, HaveVanishingMean) {
 
 TEST(WaveletFilters, AreWellConditionedOnTheRegularTorus) {
   const SubdivisionHierarchy hierarchy(regular_torus(3), 2, kQuadratureMirror);
-  EXPECT_LT(condition_number(scaled_transform(hierarchy)), 15.0);
+  EXPECT_LT(condition_number(scaled_transform(hierarchy)), 20.0);
 }
 
 TEST(WaveletFilters, AreWellConditionedOnEachShape) {
