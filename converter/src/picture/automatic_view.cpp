@@ -13,20 +13,24 @@
 namespace zerotree::picture {
 namespace {
 
-// Share of the box's footprint that the box of the lowest 4 % of the model covers.
-double foot_share(const TriangleMesh& mesh, const UnitFrame& frame, int up_axis) {
+// Share of the model's footprint on the plane across `up` that the box of its lowest 4 % covers.
+double foot_share(const TriangleMesh& mesh, const UnitFrame& frame, const Eigen::Vector3f& up) {
+  const Eigen::Vector3f a = up.unitOrthogonal(), b = up.cross(a);
+  const auto turned = [&](std::uint32_t v) {
+    const Eigen::Vector3f p = frame(mesh.positions[v]);
+    return Eigen::Vector3f(p.dot(a), p.dot(b), p.dot(up));
+  };
   Eigen::AlignedBox3f whole, foot;
   for (const Triangle& t : mesh.triangles)
-    for (std::uint32_t v : t) whole.extend(frame(mesh.positions[v]));
-  const float limit = whole.min()[up_axis] + 0.04F * whole.sizes()[up_axis];
+    for (std::uint32_t v : t) whole.extend(turned(v));
+  const float limit = whole.min().z() + 0.04F * whole.sizes().z();
   for (const Triangle& t : mesh.triangles)
     for (std::uint32_t v : t) {
-      const Eigen::Vector3f p = frame(mesh.positions[v]);
-      if (p[up_axis] <= limit) foot.extend(p);
+      const Eigen::Vector3f p = turned(v);
+      if (p.z() <= limit) foot.extend(p);
     }
-  const int a = (up_axis + 1) % 3, b = (up_axis + 2) % 3;
-  const double area = static_cast<double>(whole.sizes()[a]) * whole.sizes()[b];
-  return area > 0.0 ? static_cast<double>(foot.sizes()[a]) * foot.sizes()[b] / area : 0.0;
+  const float area = whole.sizes().x() * whole.sizes().y();
+  return area > 0.0F ? static_cast<double>(foot.sizes().x() * foot.sizes().y() / area) : 0.0;
 }
 
 // How much the normals turn from pixel to pixel, summed over a small image: silhouettes do not
@@ -62,8 +66,16 @@ double visible_relief(const TriangleMesh& mesh, const RayScene& scene,
 Eigen::Vector3d automatic_up(const TriangleMesh& mesh) {
   constexpr double clearly = 1.5;
   const UnitFrame frame = unit_frame(mesh);
-  const bool z_up = foot_share(mesh, frame, 2) > clearly * foot_share(mesh, frame, 1);
-  return z_up ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
+  Eigen::Vector3d best = Eigen::Vector3d::UnitY();
+  double to_beat = clearly * foot_share(mesh, frame, best.cast<float>());
+  for (const Eigen::Vector3d& up :
+       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(0, -1, 0)}) {
+    const double share = foot_share(mesh, frame, up.cast<float>());
+    if (share <= to_beat) continue;
+    to_beat = share;
+    best = up;
+  }
+  return best;
 }
 
 Eigen::Vector3d automatic_view(const TriangleMesh& mesh, const Eigen::Vector3d& up) {

@@ -7,8 +7,8 @@
 
 namespace zerotree::picture {
 
-/// The axis, +y or +z, along which the model most likely stands upright: the one below which it
-/// has the broader foot; +y, glTF's, unless +z is clearly better.
+/// The axis along which the model most likely stands upright: +y, which is glTF's, unless it has a
+/// clearly broader foot for +z, -z or -y.
 Eigen::Vector3d automatic_up(const TriangleMesh& mesh);
 
 /// A direction from the model to the viewer, a little above the horizon: the one of several around

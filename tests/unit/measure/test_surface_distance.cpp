@@ -94,7 +94,7 @@ TEST(SurfaceDistance, DoesNotDependOnThreadsOrDirtByOneBit) {
   DistanceOptions options = quick;
   const SurfaceDistance once = compare_surfaces(a, b, options);
   const SurfaceDistance with_dirt = compare_surfaces(a, dirty, options);
-  options.threads = 3;
+  options.threads = 2;
   const SurfaceDistance threaded = compare_surfaces(SurfaceIndex(a), b, options);
   EXPECT_EQ(std::memcmp(&once, &threaded, sizeof once), 0);
   EXPECT_EQ(std::memcmp(&once, &with_dirt, sizeof once), 0);
