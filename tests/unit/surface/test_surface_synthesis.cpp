@@ -99,6 +99,34 @@ TEST_P(Synthesis, PutsADetailWhereItsCellIs) {
 INSTANTIATE_TEST_SUITE_P(Shapes, Synthesis, testing::ValuesIn(base_shapes()),
                          [](const auto& shape) { return shape.param.name; });
 
+// A cube's details stay in the face they are in, those of its creases on the crease.
+TEST(Synthesis, DetailsDoNotReachAcrossCreases) {
+  const Shape cube = base_shapes()[2];
+  ASSERT_EQ(cube.name, "cube");
+  const SubdivisionHierarchy hierarchy(topology_of(cube), 3, kQuadratureMirror);
+  std::vector<Eigen::Vector3d> flat = cube.mesh.positions;
+  for (int number = 0; number < 3; ++number) {
+    const auto& level = hierarchy.level(number);
+    for (const auto& [tail, head] : level.edges.vertices)
+      flat.push_back(0.5 * (flat[tail] + flat[head]));
+    // The planes through a point, as bits; the cube's coordinates are 0 and 1.
+    const auto planes = [&](std::size_t vertex) {
+      unsigned bits = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        bits |= flat[vertex][axis] == 0.0 ? 1u << axis : 0u;
+        bits |= flat[vertex][axis] == 1.0 ? 8u << axis : 0u;
+      }
+      return bits;
+    };
+    for (std::size_t edge = 0; edge < level.edge_count; ++edge) {
+      const unsigned own = planes(level.vertex_count + edge);
+      ASSERT_NE(own, 0u);
+      for (const std::uint32_t vertex : level.details.row_indices(edge))
+        EXPECT_EQ(planes(vertex) & own, own);
+    }
+  }
+}
+
 TEST(Synthesis, StaysFiniteOnADegenerateBase) {
   const Shape shape = base_shapes()[0];
   const SubdivisionHierarchy hierarchy(topology_of(shape), 3, kQuadratureMirror);
