@@ -41,8 +41,6 @@ class GltfDocument {
   /// The GLB is shorter than its header states.
   bool is_truncated() const { return is_truncated_; }
 
-  /// The first bytes of buffer `index`, at most its byteLength.
-  std::span<const std::uint8_t> buffer_bytes(std::uint64_t index);
   /// The view `index` names; `index` is the place of the number.
   ViewBytes view_bytes(const JsonCursor& index);
   /// float32 VEC3 values of the accessor that `index` names, all of them finite.
@@ -52,6 +50,8 @@ class GltfDocument {
 
  private:
   struct Elements;
+  // The first bytes of buffer `index`, at most its byteLength.
+  std::span<const std::uint8_t> buffer_bytes(std::uint64_t index);
   Elements elements(const JsonCursor& accessor, std::uint64_t element_size);
   std::vector<std::uint8_t> load_uri(const JsonCursor& uri) const;
 
