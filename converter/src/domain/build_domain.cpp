@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <limits>
+
+#include "domain/base_size.h"
+#include "domain/decimation.h"
+#include "domain/domain.h"
+#include "domain/ear_splits.h"
+#include "domain/feature_edges.h"
+#include "domain/feature_vertices.h"
+
+namespace zerotree::domain {
+namespace {
+
+// The faces that no collapse removed.
+std::vector<std::uint32_t> remaining_faces(const Domain& domain) {
+  std::vector<std::uint8_t> removed(domain.topology.faces.size(), 0);
+  for (const CollapseRecord& collapse : domain.collapses)
+    for (std::uint32_t face : {collapse.left, collapse.right})
+      if (face != kNone) removed[face] = 1;
+  std::vector<std::uint32_t> faces;
+  for (std::uint32_t f = 0; f < removed.size(); ++f)
+    if (!removed[f]) faces.push_back(f);
+  return faces;
+}
+
+void count_base(Domain& domain) {
+  std::vector<std::uint32_t> valences(domain.kinds.size(), 0);
+  for (std::uint32_t f : domain.base_faces)
+    for (std::uint32_t v : domain.topology.faces[f]) ++valences[v];
+  DomainReport& report = domain.report;
+  report.base_vertices = 0;
+  report.max_valence = 0;
+  report.min_valence = std::numeric_limits<std::uint32_t>::max();
+  for (std::uint32_t valence : valences) {
+    if (valence == 0) continue;
+    ++report.base_vertices;
+    report.min_valence = std::min(report.min_valence, valence);
+    report.max_valence = std::max(report.max_valence, valence);
+  }
+  report.base_faces = static_cast<std::uint32_t>(domain.base_faces.size());
+  report.collapses = static_cast<std::uint32_t>(domain.collapses.size());
+}
+
+void decimate_to_base(const DomainOptions& options, const Progress& progress, Domain& domain) {
+  DomainReport& report = domain.report;
+  report.target_base_vertices =
+      options.base_vertices > 0
+          ? options.base_vertices
+          : automatic_base_size(static_cast<std::uint32_t>(domain.kinds.size()), report);
+  domain.collapses = decimate(domain.mesh, domain.kinds, options.pinned_vertices,
+                              report.target_base_vertices, domain.topology, progress);
+  domain.base_faces = remaining_faces(domain);
+  count_base(domain);
+}
+
+}  // namespace
+
+Domain build_domain(const TriangleMesh& mesh, const DomainOptions& options,
+                    const Progress& progress) {
+  report_progress(progress, "finding features", 0.0);
+  Domain domain;
+  domain.mesh = mesh;
+  const auto vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
+  domain.topology = build_topology(vertex_count, mesh.triangles);
+  domain.report.crease_edges =
+      tag_crease_edges(mesh, options.crease_angle_degrees, domain.topology);
+  domain.report.ear_splits = split_ears(domain.mesh, domain.topology);
+  domain.kinds = classify_vertices(domain.mesh, domain.topology);
+  domain.report.corners =
+      static_cast<std::uint32_t>(std::ranges::count(domain.kinds, VertexKind::corner));
+  count_topology(domain.topology, domain.report);
+  decimate_to_base(options, progress, domain);
+  return domain;
+}
+
+Domain rebuild_domain(const Domain& domain, const DomainOptions& options,
+                      const Progress& progress) {
+  Domain rebuilt;
+  rebuilt.mesh = domain.mesh;
+  rebuilt.kinds = domain.kinds;
+  rebuilt.topology = domain.topology;
+  std::vector<std::uint32_t> fan;
+  for (std::size_t i = domain.collapses.size(); i-- > 0;)
+    undo_collapse(rebuilt.topology, domain.collapses[i], fan);
+  rebuilt.report = domain.report;
+  decimate_to_base(options, progress, rebuilt);
+  return rebuilt;
+}
+
+}  // namespace zerotree::domain

@@ -1,0 +1,196 @@
+#include "domain/decimation.h"
+
+#include <cmath>
+#include <limits>
+
+#include "domain/collapse_cost.h"
+#include "domain/collapse_rules.h"
+#include "domain/indexed_heap.h"
+
+namespace zerotree::domain {
+namespace {
+
+// What is still allowed when nothing else is left to collapse above the target.
+constexpr CollapseCaps kCaps[] = {{},
+                                  {.valence = 8, .sector = 5, .fan_share = 0.75},
+                                  {.valence = 8, .sector = 5, .corner_sector = 4, .fan_share = 0.75,
+                                   .forbid_flips = false}};
+
+// Merges `removed` into `kept`: the fan takes the place of the edge's two faces.
+void collapse(TriangleTopology& topology, const Star& star, const CollapseSite& site) {
+  const auto close_gap = [&](std::uint32_t gone, std::uint32_t apex) {
+    if (gone == kNone) return;
+    const int k = corner_of(topology.faces[gone], apex);
+    const int to_removed = topology.faces[gone][kNext[k]] == site.removed ? k : kPrev[k];
+    const int to_kept = to_removed == k ? kPrev[k] : k;
+    const std::uint32_t inner = topology.adjacent[gone][to_removed];
+    const std::uint32_t outer = topology.adjacent[gone][to_kept];
+    const int inner_edge = edge_towards(topology, inner, gone);
+    const int bit = (topology.creases[gone] >> to_kept) & 1;
+    topology.adjacent[inner][inner_edge] = outer;
+    topology.creases[inner] =
+        static_cast<std::uint8_t>((topology.creases[inner] & ~(1 << inner_edge)) |
+                                  (bit << inner_edge));
+    if (outer != kNone) topology.adjacent[outer][edge_towards(topology, outer, gone)] = inner;
+    topology.face_of_vertex[apex] = inner;
+    topology.face_of_vertex[site.kept] = inner;
+  };
+  close_gap(site.left, site.left_apex);
+  close_gap(site.right, site.right_apex);
+  for (const auto& [face, corner] : star.corners)
+    if (face != site.left && face != site.right) topology.faces[face][corner] = site.kept;
+}
+
+class Decimator {
+ public:
+  Decimator(const TriangleMesh& mesh, const std::vector<VertexKind>& kinds,
+            const std::vector<std::uint32_t>& pinned, TriangleTopology& topology)
+      : topology_(topology),
+        positions_(normalised_positions(mesh)),
+        quadrics_(vertex_quadrics(topology, positions_)),
+        rules_(topology, kinds),
+        heap_(static_cast<std::uint32_t>(kinds.size())),
+        fixed_(kinds.size(), 0) {
+    for (std::uint32_t v = 0; v < kinds.size(); ++v) fixed_[v] = kinds[v] == VertexKind::corner;
+    for (std::uint32_t v : pinned) fixed_[v] = 1;
+  }
+
+  std::vector<CollapseRecord> run(std::uint32_t target, const Progress& progress) {
+    const std::uint32_t count = static_cast<std::uint32_t>(positions_.size());
+    std::vector<CollapseRecord> records;
+    records.reserve(count > target ? count - target : 0);
+    for (const CollapseCaps& caps : kCaps) {
+      caps_ = caps;
+      fill_heap(records);
+      while (!heap_.empty() && count - records.size() > target) {
+        if (records.size() % 65536 == 0)
+          report_progress(progress, "decimating", static_cast<double>(records.size()) / count);
+        collapse_cheapest(records);
+      }
+    }
+    return records;
+  }
+
+ private:
+  void fill_heap(const std::vector<CollapseRecord>& records) {
+    std::vector<std::uint8_t> removed(positions_.size(), 0);
+    for (const CollapseRecord& record : records) removed[record.removed] = 1;
+    for (std::uint32_t v = 0; v < positions_.size(); ++v)
+      if (!removed[v]) update(v);
+  }
+
+  // The cheapest allowed collapse of the vertex; infinite cost if there is none.
+  double cheapest_site(std::uint32_t vertex, CollapseSite& best) {
+    double best_cost = std::numeric_limits<double>::infinity();
+    gather_star(topology_, vertex, star_);
+    const std::size_t n = star_.corners.size();
+    for (std::size_t i = 0; i < n + (star_.closed ? 0 : 1); ++i) {
+      CollapseSite site;
+      const bool last = i == n;
+      if (!rules_.allows(vertex, star_, last ? n - 1 : i, last, caps_, site)) continue;
+      const double cost =
+          collapse_cost(topology_, positions_, quadrics_, star_, site, caps_.forbid_flips);
+      if (cost < best_cost || (cost == best_cost && site.kept < best.kept)) {
+        best_cost = cost;
+        best = site;
+      }
+    }
+    return best_cost;
+  }
+
+  void update(std::uint32_t vertex) {
+    if (fixed_[vertex]) return;
+    CollapseSite site;
+    const double cost = cheapest_site(vertex, site);
+    if (std::isfinite(cost))
+      heap_.set(vertex, cost);
+    else
+      heap_.remove(vertex);
+  }
+
+  void collapse_cheapest(std::vector<CollapseRecord>& records) {
+    const std::uint32_t vertex = heap_.top();
+    CollapseSite site;
+    const double cost = cheapest_site(vertex, site);
+    // Costs two rings away may be out of date: look again before acting.
+    if (!std::isfinite(cost)) return heap_.remove(vertex);
+    if (cost > heap_.cost(vertex) * (1 + 1e-9)) return heap_.set(vertex, cost);
+    heap_.remove(vertex);
+    collapse(topology_, star_, site);
+    quadrics_[site.kept].add(quadrics_[vertex]);
+    records.push_back({vertex, site.kept, site.left, site.right});
+    gather_star(topology_, site.kept, kept_star_);
+    update(site.kept);
+    for (std::size_t i = 0; i < kept_star_.corners.size(); ++i) {
+      const auto [face, corner] = kept_star_.corners[i];
+      if (i == 0 && !kept_star_.closed) update(topology_.faces[face][kNext[corner]]);
+      update(topology_.faces[face][kPrev[corner]]);
+    }
+  }
+
+  TriangleTopology& topology_;
+  std::vector<Eigen::Vector3d> positions_;
+  std::vector<Quadric> quadrics_;
+  CollapseRules rules_;
+  IndexedHeap heap_;
+  std::vector<std::uint8_t> fixed_;
+  CollapseCaps caps_;
+  Star star_, kept_star_;
+};
+
+}  // namespace
+
+std::vector<CollapseRecord> decimate(const TriangleMesh& mesh,
+                                     const std::vector<VertexKind>& kinds,
+                                     const std::vector<std::uint32_t>& pinned,
+                                     std::uint32_t target, TriangleTopology& topology,
+                                     const Progress& progress) {
+  return Decimator(mesh, kinds, pinned, topology).run(target, progress);
+}
+
+void undo_collapse(TriangleTopology& topology, const CollapseRecord& collapse,
+                   std::vector<std::uint32_t>& fan) {
+  fan.clear();
+  const auto inner_face = [&](std::uint32_t gone, bool is_left) {
+    const int k = corner_of(topology.faces[gone], collapse.removed);
+    return topology.adjacent[gone][is_left ? kPrev[k] : k];
+  };
+  const bool from_left = collapse.left != kNone;
+  const std::uint32_t last =
+      collapse.right != kNone ? inner_face(collapse.right, false) : kNone;
+  std::uint32_t face = from_left ? inner_face(collapse.left, true) : last;
+  // Without a left face the fan begins at the boundary: go there clockwise.
+  while (!from_left) {
+    const int k = corner_of(topology.faces[face], collapse.kept);
+    if (topology.adjacent[face][k] == kNone) break;
+    face = topology.adjacent[face][k];
+  }
+  while (true) {
+    fan.push_back(face);
+    if (face == last) break;
+    face = topology.adjacent[face][kPrev[corner_of(topology.faces[face], collapse.kept)]];
+    if (face == kNone) break;
+  }
+
+  const auto open_gap = [&](std::uint32_t gone, bool is_left) {
+    if (gone == kNone) return;
+    const std::uint32_t inner = inner_face(gone, is_left);
+    const int k = corner_of(topology.faces[inner], collapse.kept);
+    const int edge = is_left ? k : kPrev[k];
+    const std::uint32_t outer = topology.adjacent[inner][edge];
+    if (outer != kNone) topology.adjacent[outer][edge_towards(topology, outer, inner)] = gone;
+    topology.adjacent[inner][edge] = gone;
+    // The edge between the faces of the gap and the fan is never a feature (is_chain_step).
+    topology.creases[inner] = static_cast<std::uint8_t>(topology.creases[inner] & ~(1 << edge));
+    topology.face_of_vertex[collapse.kept] = gone;
+  };
+  open_gap(collapse.left, true);
+  open_gap(collapse.right, false);
+  for (std::uint32_t f : fan) {
+    Triangle& corners = topology.faces[f];
+    corners[corner_of(corners, collapse.kept)] = collapse.removed;
+  }
+  topology.face_of_vertex[collapse.removed] = fan.front();
+}
+
+}  // namespace zerotree::domain

@@ -1,0 +1,89 @@
+// The parameter domain of a mesh: its features, its base mesh and the way back to the mesh.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "domain/triangle_topology.h"
+#include "mesh/progress.h"
+#include "mesh/triangle_mesh.h"
+
+namespace zerotree::domain {
+
+struct DomainOptions {
+  /// Wanted vertices of the base mesh; 0: from the input's size, features and topology.
+  std::uint32_t base_vertices = 0;
+  /// Edges whose normals turn by more than this are creases, in degrees; 180 switches creases off.
+  /// 0: the default rule, which wants long chains of 40 degrees and follows them down to 15.
+  double crease_angle_degrees = 0;
+  /// Vertices that must stay in the base mesh, ascending (the remesher's answer to a place where
+  /// the undo of a collapse has no room).
+  std::vector<std::uint32_t> pinned_vertices;
+};
+
+/// What a vertex may do.
+enum class VertexKind : std::uint8_t {
+  smooth,  ///< no feature edge: free
+  chain,   ///< on a crease or boundary that passes through: stays on it
+  corner,  ///< end, junction or sharp turn of features: stays in the base
+};
+
+/// One half-edge collapse: `removed` was merged into `kept`. The two faces of their edge are
+/// `left` = (removed, kept, a) and `right` = (kept, removed, b), kNone where there is none; they
+/// stay in the topology's arrays as they were then, which is all that the undo needs.
+struct CollapseRecord {
+  std::uint32_t removed;
+  std::uint32_t kept;
+  std::uint32_t left;
+  std::uint32_t right;
+};
+
+struct DomainReport {
+  std::uint32_t target_base_vertices = 0;
+  std::uint32_t base_vertices = 0;
+  std::uint32_t base_faces = 0;
+  std::uint32_t collapses = 0;
+  std::uint32_t components = 0;
+  std::uint32_t boundary_loops = 0;
+  /// Sum over the components.
+  std::uint32_t genus = 0;
+  /// Of the input mesh.
+  std::uint32_t crease_edges = 0;
+  std::uint32_t corners = 0;
+  /// Vertices added where a triangle had two feature edges.
+  std::uint32_t ear_splits = 0;
+  /// Of the base mesh; faces around a vertex.
+  std::uint32_t min_valence = 0;
+  std::uint32_t max_valence = 0;
+};
+
+/// A mesh taken apart. `mesh` is the input, first as it was, then the vertices and faces of the
+/// ear splits (which do not change the surface). `topology` is its topology after all `collapses`:
+/// undone from the last to the first they give back the mesh's.
+struct Domain {
+  TriangleMesh mesh;
+  std::vector<VertexKind> kinds;
+  TriangleTopology topology;
+  std::vector<CollapseRecord> collapses;
+  /// The faces that are left, ascending: indices into `topology.faces`.
+  std::vector<std::uint32_t> base_faces;
+  DomainReport report;
+};
+
+/// Finds the features of `mesh` (clean, oriented, manifold; any genus, boundaries, components)
+/// and decimates it to a base mesh: a simplicial complex without duplicate edges, of the same
+/// topology. Throws Error(refused_topology) if the mesh is no manifold.
+/// Cost: about 10 microseconds and 400 bytes per vertex.
+Domain build_domain(const TriangleMesh& mesh, const DomainOptions& options,
+                    const Progress& progress);
+
+/// The domain of the same mesh (ear splits, features and all) with other `options`.
+Domain rebuild_domain(const Domain& domain, const DomainOptions& options,
+                      const Progress& progress);
+
+/// Takes back one collapse, the last one that is not yet taken back: connectivity only. The faces
+/// that change from `kept` to `removed` are written to `fan`, counter-clockwise around both.
+void undo_collapse(TriangleTopology& topology, const CollapseRecord& collapse,
+                   std::vector<std::uint32_t>& fan);
+
+}  // namespace zerotree::domain

@@ -1,0 +1,142 @@
+#include "domain/feature_edges.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace zerotree::domain {
+namespace {
+
+// How edges become creases. A chain starts from edges of the upper angle, goes on over edges of
+// the lower angle and counts only if it is long: scan noise makes sharp edges, but short chains.
+struct CreaseRule {
+  double upper_cosine;
+  double lower_cosine;
+  std::uint32_t min_edges;   // in a chain
+  double min_strong_share;   // of a chain's edges that reach the upper angle
+  double max_neighbour;      // turn of the surface beside the edge, as a share of the edge's own
+};
+
+constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
+CreaseRule rule_for(double angle_degrees) {
+  if (angle_degrees > 0) {
+    const double cosine = std::cos(radians(angle_degrees));
+    return {cosine, cosine, 1, 0.0, 1e9};
+  }
+  return {std::cos(radians(40.0)), std::cos(radians(15.0)), 8, 0.5, 0.35};
+}
+
+struct CandidateEdge {
+  std::uint32_t face;
+  int edge;
+  bool strong;
+};
+
+// Disjoint sets of edges that meet in a vertex.
+class ChainSets {
+ public:
+  explicit ChainSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { parent_[find(a)] = find(b); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+std::vector<Eigen::Vector3d> face_normals(const TriangleMesh& mesh) {
+  std::vector<Eigen::Vector3d> normals;
+  normals.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles)
+    normals.push_back((mesh.positions[t[1]] - mesh.positions[t[0]])
+                          .cross(mesh.positions[t[2]] - mesh.positions[t[0]])
+                          .stableNormalized());
+  return normals;
+}
+
+// On a crease the surface turns at one edge; on a rounded or noisy ridge it also turns at the
+// edges beside it. The least turn on either side counts: at a crease's bend one edge turns too.
+bool turns_only_here(const TriangleTopology& topology, const std::vector<Eigen::Vector3d>& normals,
+                     std::uint32_t face, int edge, double max_share) {
+  const auto turn = [&](std::uint32_t f, int k) {
+    const std::uint32_t g = topology.adjacent[f][k];
+    return g == kNone ? 0.0 : std::acos(std::clamp(normals[f].dot(normals[g]), -1.0, 1.0));
+  };
+  const double limit = max_share * turn(face, edge);
+  const std::uint32_t other = topology.adjacent[face][edge];
+  const int back = edge_towards(topology, other, face);
+  return std::min(turn(face, kNext[edge]), turn(face, kPrev[edge])) <= limit &&
+         std::min(turn(other, kNext[back]), turn(other, kPrev[back])) <= limit;
+}
+
+std::vector<CandidateEdge> find_candidates(const TriangleMesh& mesh, const CreaseRule& rule,
+                                           const TriangleTopology& topology) {
+  const std::vector<Eigen::Vector3d> normals = face_normals(mesh);
+  std::vector<CandidateEdge> candidates;
+  for (std::uint32_t f = 0; f < topology.faces.size(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t g = topology.adjacent[f][k];
+      if (g == kNone || g < f || normals[f].isZero() || normals[g].isZero()) continue;
+      const double cosine = normals[f].dot(normals[g]);
+      if (cosine > rule.lower_cosine) continue;
+      if (rule.max_neighbour < 1e8 &&
+          !turns_only_here(topology, normals, f, k, rule.max_neighbour))
+        continue;
+      candidates.push_back({f, k, cosine <= rule.upper_cosine});
+    }
+  return candidates;
+}
+
+// The set of each candidate edge, joined at common vertices.
+ChainSets join_chains(const TriangleTopology& topology,
+                      const std::vector<CandidateEdge>& candidates) {
+  ChainSets sets(candidates.size());
+  std::vector<std::uint32_t> first_at(topology.face_of_vertex.size(), kNone);
+  for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+    const auto& [face, edge, strong] = candidates[i];
+    for (int end : {edge, kNext[edge]}) {
+      std::uint32_t& first = first_at[topology.faces[face][end]];
+      if (first == kNone)
+        first = i;
+      else
+        sets.join(i, first);
+    }
+  }
+  return sets;
+}
+
+}  // namespace
+
+std::uint32_t tag_crease_edges(const TriangleMesh& mesh, double crease_angle_degrees,
+                               TriangleTopology& topology) {
+  if (crease_angle_degrees >= 180.0) return 0;
+  const CreaseRule rule = rule_for(crease_angle_degrees);
+  const std::vector<CandidateEdge> candidates = find_candidates(mesh, rule, topology);
+  ChainSets sets = join_chains(topology, candidates);
+  std::vector<std::uint32_t> edges(candidates.size(), 0), strong(candidates.size(), 0);
+  for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+    ++edges[sets.find(i)];
+    strong[sets.find(i)] += candidates[i].strong ? 1u : 0u;
+  }
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+    const std::uint32_t set = sets.find(i);
+    if (edges[set] < rule.min_edges || strong[set] < rule.min_strong_share * edges[set]) continue;
+    const auto& [face, edge, is_strong] = candidates[i];
+    const std::uint32_t other = topology.adjacent[face][edge];
+    const int back = edge_towards(topology, other, face);
+    topology.creases[face] = static_cast<std::uint8_t>(topology.creases[face] | (1 << edge));
+    topology.creases[other] = static_cast<std::uint8_t>(topology.creases[other] | (1 << back));
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace zerotree::domain

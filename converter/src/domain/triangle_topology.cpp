@@ -1,0 +1,91 @@
+#include "domain/triangle_topology.h"
+
+#include <numeric>
+
+#include "mesh/error.h"
+
+namespace zerotree::domain {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw Error(ExitCode::refused_topology,
+              what + "; the mesh must be a clean oriented manifold before it gets a base mesh");
+}
+
+// The corners of each vertex, one list after the other.
+struct CornerLists {
+  std::vector<std::uint32_t> begin;    // per vertex, and the end of the last
+  std::vector<std::uint32_t> corners;  // 3 * face + corner
+};
+
+CornerLists list_corners(std::uint32_t vertex_count, const std::vector<Triangle>& faces) {
+  CornerLists lists;
+  lists.begin.assign(vertex_count + 1, 0);
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::uint32_t v : faces[f]) {
+      if (v >= vertex_count) refuse("face " + std::to_string(f) + " names a missing vertex");
+      ++lists.begin[v + 1];
+    }
+  std::partial_sum(lists.begin.begin(), lists.begin.end(), lists.begin.begin());
+  lists.corners.resize(3 * faces.size());
+  std::vector<std::uint32_t> end(lists.begin.begin(), lists.begin.end() - 1);
+  for (std::uint32_t f = 0; f < faces.size(); ++f)
+    for (std::uint32_t k = 0; k < 3; ++k) lists.corners[end[faces[f][k]]++] = 3 * f + k;
+  return lists;
+}
+
+}  // namespace
+
+TriangleTopology build_topology(std::uint32_t vertex_count, const std::vector<Triangle>& faces) {
+  const CornerLists lists = list_corners(vertex_count, faces);
+  TriangleTopology topology;
+  topology.faces = faces;
+  topology.adjacent.assign(faces.size(), {kNone, kNone, kNone});
+  topology.creases.assign(faces.size(), 0);
+  topology.face_of_vertex.resize(vertex_count);
+  // An edge a -> b of one face is b -> a in its neighbour: look among the edges that leave b.
+  for (std::uint32_t f = 0; f < faces.size(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = faces[f][k], b = faces[f][kNext[k]];
+      for (std::uint32_t i = lists.begin[b]; i < lists.begin[b + 1]; ++i) {
+        const std::uint32_t g = lists.corners[i] / 3, corner = lists.corners[i] % 3;
+        if (faces[g][(corner + 1) % 3] != a) continue;
+        if (topology.adjacent[f][k] != kNone)
+          refuse("edge " + std::to_string(a) + "-" + std::to_string(b) +
+                 " has more than two faces or two of unlike orientation");
+        topology.adjacent[f][k] = g;
+      }
+    }
+  Star star;
+  for (std::uint32_t v = 0; v < vertex_count; ++v) {
+    const std::uint32_t count = lists.begin[v + 1] - lists.begin[v];
+    if (count == 0) refuse("vertex " + std::to_string(v) + " has no face");
+    topology.face_of_vertex[v] = lists.corners[lists.begin[v]] / 3;
+    gather_star(topology, v, star);
+    if (star.corners.size() != count)
+      refuse("the faces of vertex " + std::to_string(v) + " form more than one fan");
+  }
+  return topology;
+}
+
+void gather_star(const TriangleTopology& topology, std::uint32_t vertex, Star& star) {
+  star.corners.clear();
+  const std::uint32_t first = topology.face_of_vertex[vertex];
+  std::uint32_t face = first;
+  // Clockwise to the boundary, where an open star begins.
+  while (true) {
+    const std::uint32_t before = topology.adjacent[face][corner_of(topology.faces[face], vertex)];
+    star.closed = before == first;
+    if (before == kNone || star.closed) break;
+    face = before;
+  }
+  if (star.closed) face = first;
+  const std::uint32_t start = face;
+  do {
+    const int corner = corner_of(topology.faces[face], vertex);
+    star.corners.push_back({face, corner});
+    face = topology.adjacent[face][kPrev[corner]];
+  } while (face != kNone && face != start);
+}
+
+}  // namespace zerotree::domain

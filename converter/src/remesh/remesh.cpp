@@ -1,0 +1,129 @@
+#include "remesh/remesh.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "mesh/error.h"
+#include "remesh/lattice_numbering.h"
+#include "remesh/lattice_sampling.h"
+#include "remesh/vertex_insertion.h"
+#include "remesh/vertex_relaxation.h"
+
+namespace zerotree::remesh {
+namespace {
+
+// Sweeps of relaxation each time that the number of vertices has doubled.
+constexpr int kSweeps = 2;
+// The undo may ask for so many more base vertices before the mesh is given up.
+constexpr std::uint32_t kMaxRebuilds = 64;
+constexpr double kFacesPerInputFace = 2.25;
+constexpr int kMaxLevels = 12;
+constexpr std::uint64_t kMaxVertices = std::uint64_t{1} << 30;
+// Rounding in the sum of a base triangle's covered area.
+constexpr double kCoverageTolerance = 1e-9;
+
+int automatic_levels(const bitstream::BaseTopology& base, std::size_t input_faces) {
+  int levels = 1;
+  double faces = 4.0 * static_cast<double>(base.triangles.size());
+  for (; faces < kFacesPerInputFace * static_cast<double>(input_faces) && levels < kMaxLevels;
+       ++levels)
+    faces *= 4;
+  return levels;
+}
+
+void count_base(const bitstream::BaseTopology& base, RemeshReport& report) {
+  std::vector<std::uint32_t> valences(base.vertex_count, 0);
+  for (const Triangle& t : base.triangles)
+    for (std::uint32_t v : t) ++valences[v];
+  report.base_vertices = base.vertex_count;
+  report.base_faces = static_cast<std::uint32_t>(base.triangles.size());
+  report.base_crease_edges = static_cast<std::uint32_t>(base.crease_edges.size());
+  report.base_corners = static_cast<std::uint32_t>(base.corner_vertices.size());
+  report.min_valence = *std::ranges::min_element(valences);
+  report.max_valence = *std::ranges::max_element(valences);
+}
+
+// Lays the mesh out; where the undo finds no room, keeps the vertex in the base and starts again.
+Parameterisation parameterise_somehow(const domain::Domain& domain, const Progress& progress,
+                                      RemeshReport& report) {
+  Parameterisation result = parameterise(domain, progress);
+  domain::DomainOptions options;
+  options.base_vertices = domain.report.target_base_vertices;
+  while (result.stuck_vertex != kNone) {
+    if (++report.rebuilds > kMaxRebuilds)
+      throw Error(ExitCode::refused_topology,
+                  "no base mesh was found over which the mesh can be laid out; ask for more base "
+                  "vertices than " +
+                      std::to_string(options.base_vertices));
+    options.pinned_vertices.push_back(result.stuck_vertex);
+    std::ranges::sort(options.pinned_vertices);
+    result = parameterise(domain::rebuild_domain(domain, options, progress), progress);
+  }
+  return result;
+}
+
+}  // namespace
+
+Parameterisation parameterise(const domain::Domain& domain, const Progress& progress) {
+  Parameterisation result{build_base_domain(domain), {}, 0, kNone};
+  result.charts = build_base_charts(domain, result.base);
+  const std::vector<Eigen::Vector3d>& positions = domain.mesh.positions;
+  VertexInsertion insertion(result.base, positions, domain.kinds);
+  VertexRelaxation relaxation(result.base, positions, domain.kinds);
+  const std::size_t collapses = domain.collapses.size();
+  std::size_t next_sweep = result.base.mesh_vertex.size();
+  for (std::size_t i = 0; i < collapses; ++i) {
+    if (!insertion.insert(result.charts, domain.collapses[collapses - 1 - i])) {
+      result.stuck_vertex = domain.collapses[collapses - 1 - i].removed;
+      return result;
+    }
+    if (i + 1 < next_sweep || i + 1 == collapses) continue;
+    report_progress(progress, "parameterising",
+                    static_cast<double>(i) / static_cast<double>(collapses));
+    next_sweep = 2 * next_sweep;
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      for (std::uint32_t v : std::vector<std::uint32_t>(result.base.mesh_vertex))
+        relaxation.relax(result.charts, v, 1);
+      for (std::size_t j = 0; j <= i; ++j) {
+        const domain::CollapseRecord& collapse = domain.collapses[collapses - 1 - j];
+        relaxation.relax(result.charts, collapse.removed, 1);
+      }
+    }
+  }
+  result.cone_swaps = insertion.cone_swaps();
+  return result;
+}
+
+RemeshResult remesh(const domain::Domain& domain, const RemeshOptions& options,
+                    const Progress& progress) {
+  RemeshResult result;
+  const Parameterisation laid_out = parameterise_somehow(domain, progress, result.report);
+  RemeshReport& report = result.report;
+  report.cone_swaps = laid_out.cone_swaps;
+  report.bijectivity = check_bijectivity(laid_out.charts, laid_out.base);
+  if (report.bijectivity.flipped_faces > 0 ||
+      report.bijectivity.worst_coverage > kCoverageTolerance)
+    throw Error(ExitCode::internal,
+                "the parameterisation is not one to one: " +
+                    std::to_string(report.bijectivity.flipped_faces) + " faces are flipped, the worst coverage is off by " +
+                    std::to_string(report.bijectivity.worst_coverage));
+
+  const bitstream::BaseTopology& base = laid_out.base.topology;
+  count_base(base, report);
+  report.levels =
+      options.levels >= 0 ? options.levels : automatic_levels(base, domain.mesh.triangles.size());
+  if (report.levels > kMaxLevels || count_finest_vertices(base, report.levels) > kMaxVertices)
+    throw Error(ExitCode::usage, std::to_string(report.levels) +
+                                     " levels are too many for this mesh; ask for fewer");
+  report_progress(progress, "sampling", 0.0);
+  const LatticeNumbering numbering = number_lattices(base, report.levels);
+  LatticeSamples samples = sample_lattice(domain.mesh, laid_out.charts, laid_out.base, numbering);
+  if (samples.missing > 0)
+    throw Error(ExitCode::internal, std::to_string(samples.missing) +
+                                        " vertices of the new mesh have no place on the input");
+  report.finest_vertices = numbering.vertex_count;
+  result.mesh = {base, report.levels, std::move(samples.positions)};
+  return result;
+}
+
+}  // namespace zerotree::remesh

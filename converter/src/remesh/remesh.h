@@ -1,0 +1,61 @@
+// From a scan and its domain to a semi-regular mesh.
+#pragma once
+
+#include <cstdint>
+
+#include "domain/domain.h"
+#include "mesh/progress.h"
+#include "remesh/bijectivity.h"
+#include "remesh/cone_charts.h"
+#include "remesh/semi_regular_mesh.h"
+
+namespace zerotree::remesh {
+
+struct RemeshOptions {
+  /// Subdivision levels; -1: the least with 2.25 times the input's faces.
+  int levels = -1;
+};
+
+struct RemeshReport {
+  std::uint32_t base_vertices = 0;
+  std::uint32_t base_faces = 0;
+  std::uint32_t base_crease_edges = 0;
+  std::uint32_t base_corners = 0;
+  std::uint32_t min_valence = 0;
+  std::uint32_t max_valence = 0;
+  int levels = 0;
+  std::uint32_t finest_vertices = 0;
+  /// How often a re-inserted vertex took the place of a base vertex.
+  std::uint32_t cone_swaps = 0;
+  /// How often the undo found no room and the domain was built again with that vertex in the base.
+  std::uint32_t rebuilds = 0;
+  /// Of the parameterisation; both 0 (up to 1e-9) in every result.
+  BijectivityReport bijectivity;
+};
+
+struct RemeshResult {
+  SemiRegularMesh mesh;
+  RemeshReport report;
+};
+
+/// A bijection between a domain's mesh and its base surface.
+struct Parameterisation {
+  BaseDomain base;
+  ConeCharts charts;
+  std::uint32_t cone_swaps = 0;
+  /// The vertex for which the undo found no room; kNone if all is well.
+  std::uint32_t stuck_vertex = kNone;
+};
+
+/// Undoes the collapses of `domain` on its base surface, relaxing as it grows.
+Parameterisation parameterise(const domain::Domain& domain, const Progress& progress);
+
+/// Parameterises `domain` over its base mesh and samples it at 2^levels steps a base edge. The base
+/// is in the order of the stream's connectivity coder. Every position lies on the input surface.
+/// Throws Error(refused_topology) if no base was found over which the mesh can be laid out,
+/// Error(usage) if `levels` makes more than 2^30 vertices.
+/// Cost: about 20 microseconds and 500 bytes per input vertex.
+RemeshResult remesh(const domain::Domain& domain, const RemeshOptions& options,
+                    const Progress& progress);
+
+}  // namespace zerotree::remesh
