@@ -69,6 +69,9 @@ bool positive(float x) {
   return std::isfinite(x) && x > 0.0f;
 }
 
+// Triangles, edges and the lists that number them, roughly.
+constexpr std::uint64_t kBaseBytesPerFace = 200;
+
 /// Empty, or what is wrong with counts that are within the format's own ranges.
 const char* check_size(const StreamHeader& header, const Limits& limits) {
   if (header.levels > limits.max_levels) return "the stream has more levels than the limit";
@@ -80,7 +83,8 @@ const char* check_size(const StreamHeader& header, const Limits& limits) {
   if (header.vertex_count + fewest_edges * cells_below(header.levels) > limits.max_vertices) {
     return "the stream has more vertices than the limit";
   }
-  if (DetailState::memory(fewest_edges, header.levels) > limits.max_memory) {
+  if (header.face_count * kBaseBytesPerFace + DetailState::memory(fewest_edges, header.levels) >
+      limits.max_memory) {
     return "the stream needs more memory than the limit";
   }
   return nullptr;

@@ -61,8 +61,8 @@ struct Limits {
   /// Vertices of the finest level.
   std::uint64_t max_vertices = std::uint64_t{1} << 27;
   int max_levels = kMostLevels;
-  /// Bytes the decoder holds for coefficients and their coding state.
-  std::uint64_t max_memory = std::uint64_t{8} << 30;
+  /// Bytes the decoder holds for the base, the coefficients and their coding state.
+  std::uint64_t max_memory = std::uint64_t{2} << 30;
 };
 
 struct HeaderResult {
