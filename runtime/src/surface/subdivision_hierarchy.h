@@ -31,7 +31,7 @@ struct SubdivisionLevel {
 
 /// All levels 0 .. levels() of a base mesh, numbered as OpenSubdiv's uniform refinement does: the
 /// child of vertex v is v, that of edge e is V + e, those of face f are 4f .. 4f + 3. About 250
-/// bytes and 1 microsecond per finest vertex; while it is being built twice that.
+/// bytes and 2 microseconds per finest vertex; while it is being built three times the bytes.
 class SubdivisionHierarchy {
  public:
   /// Throws std::invalid_argument with a sentence if `base` is not an oriented 2-manifold (see

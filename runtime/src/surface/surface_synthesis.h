@@ -32,7 +32,7 @@ LocalDetails dequantise(const SubdivisionHierarchy& hierarchy,
                         const std::vector<float>& edge_weights, int level);
 
 /// Control points of `level`, 0 .. hierarchy.levels(). Finer levels are not computed; a level
-/// beyond the coefficients' is subdivided on. Costs about 60 ns per vertex plus 100 ns per detail
+/// beyond the coefficients' is subdivided on. Costs about 50 ns per vertex plus 100 ns per detail
 /// that is not zero.
 Positions reconstruct(const SubdivisionHierarchy& hierarchy, const Positions& base_control_points,
                       const bitstream::CoefficientSet& coefficients,
