@@ -34,7 +34,7 @@ bool is_even(const Triangle& t) {
 void check_input(const TriangleMesh& input) {
   constexpr double largest_coordinate = 1e100;  // its third power is still a double
   for (std::size_t v = 0; v < input.positions.size(); ++v)
-    if (!(input.positions[v].cwiseAbs().maxCoeff() <= largest_coordinate))
+    if (!(input.positions[v].array().abs() <= largest_coordinate).all())
       throw Error(ExitCode::unreadable_input,
                   "vertex " + std::to_string(v) +
                       " has a coordinate that is not finite or beyond 1e100; repair the mesh");

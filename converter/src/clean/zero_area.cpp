@@ -74,8 +74,10 @@ class ZeroAreaRepair {
         remove(f);
       } else if (may_flip(h, g)) {
         flip(h, g);
-        open.push_back(g / 3);
-        open.push_back(f);
+        // What could not be flipped before may be now, as a neighbour of these two.
+        for (std::uint32_t face : {g / 3, f})
+          for (std::uint32_t side = 3 * face; side < 3 * face + 3; ++side)
+            if (mates_[side] != no_half_edge) open.push_back(mates_[side] / 3);
       }
     }
   }
