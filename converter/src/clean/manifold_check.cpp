@@ -23,15 +23,17 @@ std::string check_edges(const TriangleMesh& mesh) {
   for (std::size_t e = 0; e < edges.edge_count(); ++e) {
     const std::uint32_t* h = edges.half_edges.data() + edges.first[e];
     const std::uint32_t count = edges.first[e + 1] - edges.first[e];
-    const std::string place = "edge " + std::to_string(tail_of(mesh.triangles, h[0])) + "-" +
-                              std::to_string(head_of(mesh.triangles, h[0]));
-    if (count > 2) return place + " has " + std::to_string(count) + " faces";
+    const auto place = [&] {  // made only for a message: there are millions of edges
+      return "edge " + std::to_string(tail_of(mesh.triangles, h[0])) + "-" +
+             std::to_string(head_of(mesh.triangles, h[0]));
+    };
+    if (count > 2) return place() + " has " + std::to_string(count) + " faces";
     if (count < 2) continue;
     if (tail_of(mesh.triangles, h[0]) == tail_of(mesh.triangles, h[1]))
-      return place + " has two faces of opposite orientation";
+      return place() + " has two faces of opposite orientation";
     if (tail_of(mesh.triangles, previous_half_edge(h[0])) ==
         tail_of(mesh.triangles, previous_half_edge(h[1])))
-      return place + " has two faces of the same vertices";
+      return place() + " has two faces of the same vertices";
   }
   return {};
 }
