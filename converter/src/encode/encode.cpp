@@ -42,14 +42,6 @@ std::vector<float> single_precision(const std::vector<Eigen::Vector3d>& position
   return result;
 }
 
-int planes_of(const bitstream::CoefficientSet& set) {
-  std::int32_t largest = 0;
-  for (const auto& channel : set.channels) {
-    for (const std::int32_t value : channel) largest = std::max(largest, std::abs(value));
-  }
-  return static_cast<int>(std::bit_width(static_cast<std::uint32_t>(largest) >> 1));
-}
-
 surface::SubdivisionHierarchy hierarchy_of(const bitstream::BaseTopology& base, int levels,
                                            surface::WaveletTransform transform) {
   try {
@@ -103,7 +95,7 @@ EncodedStream encode(const bitstream::BaseTopology& base,
   if (options.embed_base) {
     const int bits = header.positions.bits;
     header.positions.initial_planes =
-        std::min(bits, std::max(kFewestInitialPlanes, bits - planes_of(content.coefficients)));
+        std::min(bits, std::max(kFewestInitialPlanes, bits - count_planes(content.coefficients)));
   }
   StreamBytes stream = encode_stream(content);
   result.bytes = std::move(stream.bytes);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -54,17 +53,6 @@ void check_content(const StreamContent& content, std::size_t edge_count) {
   }
 }
 
-int planes_of(const CoefficientSet& set) {
-  std::uint32_t all = 0;
-  for (const auto& channel : set.channels) {
-    for (const std::int32_t value : channel) {
-      // -2^31 is even, so check_content has refused it.
-      all |= static_cast<std::uint32_t>(std::abs(value)) >> 1;
-    }
-  }
-  return static_cast<int>(std::bit_width(all));
-}
-
 std::vector<std::uint8_t> code_connectivity(const bitstream::BaseTopology& base) {
   RangeEncoder coder;
   const bitstream::ConnectivityStatus status = bitstream::encode_base_connectivity(coder, base);
@@ -77,6 +65,16 @@ std::vector<std::uint8_t> code_connectivity(const bitstream::BaseTopology& base)
 
 }  // namespace
 
+int count_planes(const CoefficientSet& coefficients) {
+  std::uint32_t all = 0;
+  for (const auto& channel : coefficients.channels) {
+    for (const std::int32_t value : channel) {
+      all |= static_cast<std::uint32_t>(std::abs(std::int64_t{value})) >> 1;
+    }
+  }
+  return static_cast<int>(std::bit_width(all));
+}
+
 StreamBytes encode_stream(const StreamContent& content) {
   const bitstream::BaseEdges edges = checked_edges(content.base);
   check_content(content, edges.edges.size());
@@ -84,7 +82,7 @@ StreamBytes encode_stream(const StreamContent& content) {
   bitstream::StreamHeader header = content.header;
   header.vertex_count = content.base.vertex_count;
   header.face_count = static_cast<std::uint32_t>(content.base.triangles.size());
-  header.planes = planes_of(content.coefficients);
+  header.planes = count_planes(content.coefficients);
   header.has_sharp_tags =
       !content.base.crease_edges.empty() || !content.base.corner_vertices.empty();
   std::vector<std::uint8_t> connectivity;

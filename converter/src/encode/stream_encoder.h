@@ -40,6 +40,9 @@ struct StreamBytes {
   std::vector<PassEnd> pass_ends;
 };
 
+/// Bit planes of the largest coefficient: 0 if all are zero.
+int count_planes(const bitstream::CoefficientSet& coefficients);
+
 /// Codes `content`. Deterministic; one thread; memory as the decoder's and two bytes per
 /// coefficient. Throws Error (refused_topology) if the base is not a canonically ordered manifold
 /// and std::invalid_argument if sizes or values contradict each other.

@@ -1,12 +1,9 @@
 // Which adaptive bit a decision about a detail uses.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
 #include "bitstream/adaptive_bit.h"
 #include "bitstream/coefficient_layout.h"

@@ -1,7 +1,6 @@
 #include "bitstream/detail_state.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace zerotree::bitstream {
 namespace {
