@@ -16,7 +16,6 @@ struct ConvertArguments {
   convert::ConvertOptions options;
   std::filesystem::path report;
   std::string max_error;
-  double crease_angle = -1;
 };
 
 void print_summary(const ConvertArguments& arguments, const report::ConvertReport& report) {
@@ -45,7 +44,6 @@ int run_convert(ConvertArguments& arguments) {
     const Distance target = parse_distance(arguments.max_error, "--max-error");
     (target.in_metres ? options.max_error_metres : options.max_error) = target.value;
   }
-  if (arguments.crease_angle >= 0) options.crease_angle_degrees = arguments.crease_angle;
   report::ConvertReport report;
   {
     TerminalProgress progress;
@@ -77,7 +75,7 @@ void add_convert(CLI::App& app, int& exit_code) {
   command->add_option("--levels", options.levels, "Subdivision levels [auto]")
       ->check(CLI::Range(0, 10));
   command
-      ->add_option("--crease-angle", arguments->crease_angle,
+      ->add_option("--crease-angle", options.crease_angle_degrees,
                    "Edges bent by more degrees than this are creases; 180: none [auto]")
       ->check(CLI::Range(1.0, 180.0));
   command->add_option("--max-error", arguments->max_error,

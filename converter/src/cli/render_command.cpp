@@ -21,10 +21,14 @@ struct RenderArguments {
 };
 
 // "\n" as two characters is how a caption's line break passes a shell.
-std::string unescape_line_breaks(std::string caption) {
-  for (std::size_t at; (at = caption.find("\\n")) != std::string::npos;)
-    caption.replace(at, 2, "\n");
-  return caption;
+std::string unescape_line_breaks(const std::string& caption) {
+  std::string result;
+  for (std::size_t i = 0; i < caption.size(); ++i) {
+    const bool is_break = caption.compare(i, 2, "\\n") == 0;
+    result.push_back(is_break ? '\n' : caption[i]);
+    if (is_break) ++i;
+  }
+  return result;
 }
 
 void run_render(const RenderArguments& arguments) {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 
 #include "mesh/progress.h"
 #include "report/convert_report.h"
@@ -24,8 +23,8 @@ struct ConvertOptions {
   int base_vertices = 0;
   /// Subdivision levels; -1: from the input's density.
   int levels = -1;
-  /// Edges sharper than this are creases; 180 switches creases off. Empty: the default rule.
-  std::optional<double> crease_angle_degrees;
+  /// Edges bent by more than this are creases; 180 switches creases off. 0: the default rule.
+  double crease_angle_degrees = 0;
   /// Cut the stream where the measured error first is at most this (relative); 0: no cut.
   double max_error = 0;
   /// The same in metres, taken relative to the diagonal once that is known; 0: not given.

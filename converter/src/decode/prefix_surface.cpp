@@ -37,46 +37,68 @@ void PrefixSurface::advance_to(std::uint64_t bytes) {
                 "the stream is broken: " + decoder_.reason() + "; get a fresh copy of the file");
 }
 
-void PrefixSurface::require_base() const {
-  if (!decoder_.base_ready())
+bool PrefixSurface::has_surface() const {
+  return decoder_.base_ready() || file_.external_base;
+}
+
+void PrefixSurface::require_surface() const {
+  if (!has_surface())
     throw Error(ExitCode::unreadable_input,
                 "more bytes wanted: the first " + std::to_string(fed_) +
                     " bytes end before the connectivity of the base mesh does; take a longer "
                     "prefix");
 }
 
+int PrefixSurface::levels() const {
+  return decoder_.base_ready() ? decoder_.header().levels : file_.levels;
+}
+
+const bitstream::BaseTopology& PrefixSurface::base() const {
+  return decoder_.base_ready() ? decoder_.base() : file_.base;
+}
+
 int PrefixSurface::automatic_level() {
-  require_base();
+  require_surface();
   int smooth = 0;
-  for (std::uint64_t faces = decoder_.header().face_count; faces < kSmoothFaces; faces *= 4)
-    ++smooth;
-  return std::min(decoder_.header().levels, std::max(smooth, decoder_.detailed_levels()));
+  for (std::uint64_t faces = base().triangles.size(); faces < kSmoothFaces; faces *= 4) ++smooth;
+  return std::min(levels(), std::max(smooth, decoder_.detailed_levels()));
 }
 
 const surface::SubdivisionHierarchy& PrefixSurface::hierarchy_to(int level) {
-  if (hierarchy_ == nullptr || hierarchy_->levels() < level)
+  const auto fits = [&](const surface::SubdivisionHierarchy& hierarchy) {
+    return hierarchy.levels() >= level && hierarchy.base().crease_edges == base().crease_edges &&
+           hierarchy.base().corner_vertices == base().corner_vertices;
+  };
+  if (hierarchy_ == nullptr || !fits(*hierarchy_))
     hierarchy_ = std::make_shared<const surface::SubdivisionHierarchy>(
-        decoder_.base(), level,
-        static_cast<surface::WaveletTransform>(decoder_.header().transform));
+        base(), level, static_cast<surface::WaveletTransform>(decoder_.header().transform));
   return *hierarchy_;
 }
 
-exporter::Surface PrefixSurface::surface(std::optional<int> asked) {
-  require_base();
-  const bitstream::StreamHeader& header = decoder_.header();
-  const int level = asked.value_or(automatic_level());
-  if (level < 0 || level > header.levels)
-    throw Error(ExitCode::usage, "level " + std::to_string(level) +
-                                     " does not exist: this stream has levels 0 to " +
-                                     std::to_string(header.levels));
+surface::Positions PrefixSurface::control_points(int level) {
   const surface::SubdivisionHierarchy& hierarchy = hierarchy_to(level);
-  const surface::Positions base = decoder_.base_positions();
+  if (!decoder_.base_ready()) {
+    surface::Positions positions = file_.base_positions;
+    for (int l = 0; l < level; ++l) positions = surface::subdivide(hierarchy.level(l), positions);
+    return positions;
+  }
+  const bitstream::StreamHeader& header = decoder_.header();
   const surface::Dequantisation dequantisation{
       static_cast<surface::WaveletTransform>(header.transform), header.finest_step,
       std::ldexp(1.0f, header.tangent_ratio_log2)};
-  const surface::Positions control =
-      surface::reconstruct(hierarchy, base, decoder_.coefficients(), dequantisation, level);
-  const surface::SubdivisionLevel& finest = hierarchy.level(level);
+  return surface::reconstruct(hierarchy, decoder_.base_positions(), decoder_.coefficients(),
+                              dequantisation, level);
+}
+
+exporter::Surface PrefixSurface::surface(std::optional<int> asked) {
+  require_surface();
+  const int level = asked.value_or(automatic_level());
+  if (level < 0 || level > levels())
+    throw Error(ExitCode::usage, "level " + std::to_string(level) +
+                                     " does not exist: this stream has levels 0 to " +
+                                     std::to_string(levels()));
+  const surface::Positions control = control_points(level);
+  const surface::SubdivisionLevel& finest = hierarchy_to(level).level(level);
   exporter::Surface result;
   result.positions.resize(finest.vertex_count);
   result.normals.resize(finest.vertex_count);

@@ -9,6 +9,7 @@
 #include "decode/stream_file.h"
 #include "export/mesh_bytes.h"
 #include "surface/subdivision_hierarchy.h"
+#include "surface/surface_synthesis.h"
 
 namespace zerotree::decode {
 
@@ -27,14 +28,20 @@ class PrefixSurface {
   const bitstream::StreamDecoder& decoder() const { return decoder_; }
   /// As deep as the decoded details reach, and where the limit surface looks smooth.
   int automatic_level();
-  /// Limit positions and normals at `level`, 0 .. header levels; all of `automatic_level` if empty.
-  /// Throws Error(unreadable_input) if the prefix ends before the base's connectivity, and
-  /// Error(usage) for a level out of range.
+  /// The stream holds enough for a surface: an external base always does, an embedded one once its
+  /// connectivity is known.
+  bool has_surface() const;
+  /// Limit positions and normals at `level`, 0 to the stream's levels; at `automatic_level` if
+  /// empty. Without a header, of an external base, it is the smooth surface of the base. Throws
+  /// Error(unreadable_input) unless `has_surface`, and Error(usage) for a level out of range.
   exporter::Surface surface(std::optional<int> level = {});
 
  private:
-  void require_base() const;
+  void require_surface() const;
+  int levels() const;
+  const bitstream::BaseTopology& base() const;
   const surface::SubdivisionHierarchy& hierarchy_to(int level);
+  surface::Positions control_points(int level);
 
   const StreamFile& file_;
   bitstream::StreamDecoder decoder_;

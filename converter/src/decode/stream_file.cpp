@@ -35,6 +35,7 @@ StreamFile from_asset(gltf::ProgressiveAsset asset) {
   file.bytes = std::move(asset.payload);
   file.external_base = true;
   file.base = std::move(asset.base);
+  file.levels = asset.levels;
   file.base_positions.reserve(asset.control_points.size() * 3);
   for (const Eigen::Vector3f& p : asset.control_points)
     file.base_positions.insert(file.base_positions.end(), {p.x(), p.y(), p.z()});

@@ -24,6 +24,8 @@ struct StreamFile {
   bool external_base = false;
   bitstream::BaseTopology base;
   std::vector<float> base_positions;
+  /// Levels that the glTF extension states for an external base: known before the first byte.
+  int levels = 0;
   /// Ascending in bytes; empty for an elementary stream, which carries no measurements.
   std::vector<MeasuredPrefix> prefixes;
   /// Bounding box diagonal of the source mesh; 0 if not known.

@@ -1,0 +1,199 @@
+#include "convert/convert.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "convert/measured_stream.h"
+#include "convert/output_files.h"
+#include "convert/prefix_table.h"
+#include "convert/surface_model.h"
+#include "decode/prefix_surface.h"
+#include "encode/encode.h"
+#include "export/atomic_file.h"
+#include "gltf/progressive_writer.h"
+#include "import/import_mesh.h"
+#include "measure/surface_distance.h"
+#include "mesh/error.h"
+#include "report/stage_clock.h"
+#include "surface/surface_synthesis.h"
+
+namespace zerotree::convert {
+namespace {
+
+// Samples of each surface for the table: the RMS is good to about half a percent.
+constexpr std::size_t kTableSamples = 100'000;
+// The finest step in units of the remeshing error: rounding then adds about a tenth to it.
+constexpr double kStepPerRemeshingError = 0.5;
+// ... but never finer than this part of the diagonal, about what float positions resolve.
+constexpr double kFinestRelativeStep = 1e-7;
+// Most memory a conversion takes per input vertex, in bytes.
+constexpr std::uint64_t kMemoryPerVertex = 2500;
+
+void check_memory(const ConvertOptions& options, std::uint64_t vertices) {
+  const std::uint64_t needed = vertices * kMemoryPerVertex;
+  if (options.memory_limit == 0 || needed <= options.memory_limit) return;
+  throw Error(ExitCode::memory_limit,
+              options.input.string() + ": " + std::to_string(vertices) + " vertices need about " +
+                  std::to_string((needed >> 20) + 1) +
+                  " MiB, more than --memory-limit allows; simplify the mesh, cut it into parts, "
+                  "or allow more");
+}
+
+// The stages after import do not know the file they work on; the person who reads their error does.
+template <class Stages>
+auto name_input_in_errors(const std::filesystem::path& input, Stages&& stages) {
+  try {
+    return stages();
+  } catch (const Error& error) {
+    throw Error(error.code(), input.string().append(": ").append(error.what()));
+  }
+}
+
+void note_input(const ConvertOptions& options, const importer::ImportedMesh& imported,
+                report::ConvertReport& report) {
+  report.input = options.input.string();
+  report.format = imported.format;
+  report.input_vertices = imported.mesh.positions.size();
+  report.input_faces = imported.mesh.triangles.size();
+  report.diagonal = bounding_box_diagonal(imported.mesh.positions);
+  report.not_carried = imported.not_carried;
+}
+
+// Distance between the input and the limit surface of the control points before quantisation.
+double remeshing_error(const SurfaceModel& model, const PrefixMeasurement& how) {
+  surface::Positions points;
+  points.reserve(model.control_points.size() * 3);
+  for (const Eigen::Vector3d& p : model.control_points)
+    for (int k = 0; k < 3; ++k) points.push_back(static_cast<float>(p[k]));
+  const surface::SubdivisionLevel& finest = model.hierarchy->level(model.hierarchy->levels());
+  exporter::Surface limit;
+  limit.positions.resize(finest.vertex_count);
+  limit.triangles = finest.triangles;
+  surface::limit_surface(finest, points, {limit.positions.data(), sizeof(Eigen::Vector3f)}, {});
+  return measure::compare_surfaces(how.original, decode::to_triangle_mesh(limit), how.distance)
+      .relative_rms();
+}
+
+// Limit normals of the base: what an unaware viewer shades the base with.
+std::vector<Eigen::Vector3f> base_normals(const surface::SubdivisionHierarchy& hierarchy,
+                                          const surface::Positions& base_positions) {
+  const surface::SubdivisionLevel& base = hierarchy.level(0);
+  std::vector<Eigen::Vector3f> normals(base.vertex_count);
+  surface::limit_surface(base, base_positions, {}, {normals.data(), sizeof(Eigen::Vector3f)});
+  return normals;
+}
+
+decode::StreamFile encode_model(const SurfaceModel& model, double finest_step, bool embed_base) {
+  encode::EncodeOptions options;
+  options.finest_step = finest_step;
+  // CAD-like models gain from a coarser tangential step (design, section 4).
+  options.tangent_ratio_log2 = model.base.crease_edges.empty() ? 2 : 3;
+  options.embed_base = embed_base;
+  encode::EncodedStream encoded = encode::encode(model.base, model.wavelets, options);
+  decode::StreamFile file;
+  file.bytes = std::move(encoded.bytes);
+  file.external_base = !embed_base;
+  file.base = model.base;
+  file.levels = model.hierarchy->levels();
+  file.base_positions = std::move(encoded.base_positions);
+  return file;
+}
+
+gltf::ProgressiveAsset encode_asset(const SurfaceModel& model, double finest_step,
+                                    const ConvertOptions& options, const PrefixMeasurement& how,
+                                    report::ConvertReport& report, const Progress& progress) {
+  const decode::StreamFile file = encode_model(model, finest_step, false);
+  const std::vector<Eigen::Vector3f> normals = base_normals(*model.hierarchy, file.base_positions);
+  const auto asset_of = [&](const MeasuredStream& payload) {
+    return make_asset(payload, model.hierarchy->levels(), how.diagonal, normals,
+                      options.input.stem().string());
+  };
+  MeasuredStream payload = cut_and_measure(file, options, 0, how, progress);
+  if (options.target_size > 0)
+    payload = cut_and_measure(file, options, payload_limit(asset_of(payload), options.target_size),
+                              how, progress);
+  report.payload_bytes = payload.file.bytes.size();
+  report.payload_prefixes = payload.table.prefixes;
+  return asset_of(payload);
+}
+
+void write_gltf(const std::filesystem::path& path, const gltf::ProgressiveAsset& asset,
+                bool split) {
+  if (split)
+    gltf::write_split(path, asset);
+  else
+    gltf::write_glb(path, asset);
+}
+
+// Encodes, measures and writes both outputs. All files are made and checked before one appears.
+void write_outputs(const SurfaceModel& model, double finest_step, const ConvertOptions& options,
+                   const PrefixMeasurement& how, report::StageClock& clock,
+                   report::ConvertReport& report, const Progress& progress) {
+  std::optional<CheckedOutput> stream_output, gltf_output;
+  if (!options.stream.empty()) {
+    const MeasuredStream stream = clock.run("encode stream", [&] {
+      return cut_and_measure(encode_model(model, finest_step, true), options, options.target_size,
+                             how, progress);
+    });
+    report.stream_bytes = stream.file.bytes.size();
+    report.stream_prefixes = stream.table.prefixes;
+    stream_output.emplace(options.stream, [&](const std::filesystem::path& path) {
+      exporter::write_file_atomically(path, stream.file.bytes);
+    });
+  }
+  if (!options.glb.empty()) {
+    const gltf::ProgressiveAsset asset = clock.run("encode payload", [&] {
+      return encode_asset(model, finest_step, options, how, report, progress);
+    });
+    gltf_output.emplace(options.glb, [&](const std::filesystem::path& path) {
+      write_gltf(path, asset, options.split);
+    });
+  }
+  if (stream_output) stream_output->commit();
+  if (gltf_output) gltf_output->commit();
+}
+
+}  // namespace
+
+report::ConvertReport convert_file(const ConvertOptions& asked, const Progress& progress) {
+  check_outputs(asked);
+  ConvertOptions options = asked;
+  if (options.threads == 0) options.threads = tbb::info::default_concurrency();
+  const tbb::global_control thread_limit(tbb::global_control::max_allowed_parallelism,
+                                         static_cast<std::size_t>(options.threads));
+  report::ConvertReport report;
+  report::StageClock clock;
+
+  const importer::ImportedMesh imported =
+      clock.run("import", [&] { return importer::import_mesh(options.input, {}, progress); });
+  note_input(options, imported, report);
+  check_memory(options, report.input_vertices);
+
+  const SurfaceModel model = name_input_in_errors(options.input, [&] {
+    return build_surface_model(imported.mesh, options, clock, report, progress);
+  });
+
+  const measure::SurfaceIndex original =
+      clock.run("index", [&] { return measure::SurfaceIndex(imported.mesh, options.threads); });
+  const PrefixMeasurement how{original,
+                              {kTableSamples, options.threads},
+                              report.input_vertices,
+                              report.diagonal,
+                              model.hierarchy};
+  report.remeshing_error = clock.run("measure remesh", [&] { return remeshing_error(model, how); });
+  const double finest_step =
+      report.diagonal *
+      std::max(kStepPerRemeshingError * report.remeshing_error, kFinestRelativeStep);
+
+  write_outputs(model, finest_step, options, how, clock, report, progress);
+  if (!options.glb.empty()) report.file_bytes = std::filesystem::file_size(options.glb);
+  report.stages = clock.costs();
+  return report;
+}
+
+}  // namespace zerotree::convert

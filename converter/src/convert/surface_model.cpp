@@ -1,0 +1,75 @@
+#include "convert/surface_model.h"
+
+#include <utility>
+
+#include "analysis/wavelet_analysis.h"
+#include "clean/clean_mesh.h"
+#include "domain/domain.h"
+#include "fit/limit_interpolation.h"
+#include "remesh/remesh.h"
+
+namespace zerotree::convert {
+namespace {
+
+constexpr auto kTransform = surface::WaveletTransform::loop_quadrature_mirror;
+
+void note_clean(const clean::CleanMesh& cleaned, report::ConvertReport& report) {
+  for (const auto& [what, count] : clean::list_repairs(cleaned.report))
+    report.repairs.push_back({what, count});
+  report.clean_vertices = cleaned.mesh.positions.size();
+  report.clean_faces = cleaned.mesh.triangles.size();
+  report.components = cleaned.report.components;
+  report.boundary_loops = cleaned.report.boundary_loops;
+  report.genus = cleaned.report.genus;
+}
+
+void note_remesh(const remesh::RemeshResult& remeshed, report::ConvertReport& report) {
+  report.base_vertices = remeshed.mesh.base.vertex_count;
+  report.base_faces = remeshed.mesh.base.triangles.size();
+  report.crease_edges = remeshed.mesh.base.crease_edges.size();
+  report.corners = remeshed.mesh.base.corner_vertices.size();
+  report.levels = remeshed.mesh.levels;
+  report.finest_vertices = remeshed.mesh.positions.size();
+  report.cone_swaps = remeshed.report.cone_swaps;
+}
+
+}  // namespace
+
+SurfaceModel build_surface_model(const TriangleMesh& mesh, const ConvertOptions& options,
+                                 report::StageClock& clock, report::ConvertReport& report,
+                                 const Progress& progress) {
+  const clean::CleanMesh cleaned =
+      clock.run("clean", [&] { return clean::clean_mesh(mesh, {}, progress); });
+  note_clean(cleaned, report);
+
+  domain::DomainOptions domain_options;
+  domain_options.base_vertices = static_cast<std::uint32_t>(options.base_vertices);
+  domain_options.crease_angle_degrees = options.crease_angle_degrees;
+  const domain::Domain domain = clock.run(
+      "domain", [&] { return domain::build_domain(cleaned.mesh, domain_options, progress); });
+
+  remesh::RemeshOptions remesh_options;
+  remesh_options.levels = options.levels;
+  remesh::RemeshResult remeshed =
+      clock.run("remesh", [&] { return remesh::remesh(domain, remesh_options, progress); });
+  note_remesh(remeshed, report);
+
+  SurfaceModel model;
+  model.base = std::move(remeshed.mesh.base);
+  model.hierarchy = clock.run("topology", [&] {
+    return std::make_shared<const surface::SubdivisionHierarchy>(model.base, remeshed.mesh.levels,
+                                                                 kTransform);
+  });
+  model.control_points = clock.run("fit", [&] {
+    return fit::control_points_from_samples(*model.hierarchy, remeshed.mesh.positions, {});
+  });
+  analysis::AnalysisOptions analysis_options;
+  analysis_options.transform = kTransform;
+  analysis_options.threads = options.threads;
+  model.wavelets = clock.run("analysis", [&] {
+    return analysis::analyse(*model.hierarchy, model.control_points, analysis_options, progress);
+  });
+  return model;
+}
+
+}  // namespace zerotree::convert

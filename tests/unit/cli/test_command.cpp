@@ -1,0 +1,187 @@
+// The command on meshes made in code: outputs, exit codes, determinism, nothing left behind.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "command_runner.h"
+#include "shapes.h"
+
+namespace zerotree::test {
+namespace {
+
+TriangleMesh bumpy_sphere() {
+  return add_bumps(sphere(4), 0.02, 6);
+}
+
+double compared_error(const std::string& reference, const std::string& test) {
+  const CommandResult result =
+      run_zerotree({"compare", reference, test, "--json", "--samples", "100000"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return nlohmann::json::parse(result.out)["symmetric"]["rms"];
+}
+
+std::size_t files_in(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder),
+                                                std::filesystem::directory_iterator()));
+}
+
+TEST(Command, ConvertsAndDecodesEveryOutput) {
+  const TemporaryFolder folder;
+  write_off(folder / "in.off", bumpy_sphere());
+  const CommandResult converted =
+      run_zerotree({"convert", folder / "in.off", "-o", folder / "out.glb", "--stream",
+                    folder / "out.zt", "--report", folder / "report.json"});
+  ASSERT_EQ(converted.exit_code, 0) << converted.err;
+  EXPECT_EQ(converted.err, "") << "progress belongs to terminals only";
+  for (const std::string stream : {"out.glb", "out.zt"})
+    for (const std::string mesh : {"a.ply", "a.obj", "a.glb"}) {
+      const CommandResult decoded = run_zerotree({"decode", folder / stream, "-o", folder / mesh});
+      ASSERT_EQ(decoded.exit_code, 0) << decoded.err;
+      EXPECT_LT(compared_error(folder / "in.off", folder / mesh), 5e-4) << stream << ' ' << mesh;
+    }
+  EXPECT_EQ(run_zerotree({"validate", folder / "out.glb"}).exit_code, 0);
+  EXPECT_EQ(run_zerotree({"info", folder / "out.glb"}).exit_code, 0);
+  EXPECT_EQ(run_zerotree({"info", folder / "out.zt"}).exit_code, 0);
+}
+
+TEST(Command, ReportTellsWhatTheFilesHold) {
+  const TemporaryFolder folder;
+  write_off(folder / "in.off", bumpy_sphere());
+  ASSERT_EQ(run_zerotree({"convert", folder / "in.off", "-o", folder / "out.glb", "--stream",
+                          folder / "out.zt", "--report", folder / "report.json"})
+                .exit_code,
+            0);
+  const auto text = read_bytes(folder / "report.json");
+  const nlohmann::json report = nlohmann::json::parse(text.begin(), text.end());
+  EXPECT_EQ(report["input"]["vertices"], 2562);
+  EXPECT_EQ(report["input"]["faces"], 5120);
+  EXPECT_EQ(report["stream"]["bytes"], std::filesystem::file_size(folder / "out.zt"));
+  EXPECT_EQ(report["file"]["bytes"], std::filesystem::file_size(folder / "out.glb"));
+  const nlohmann::json last = report["stream"]["prefixes"].back();
+  ASSERT_EQ(run_zerotree({"decode", folder / "out.zt", "-o", folder / "a.ply"}).exit_code, 0);
+  const double measured = compared_error(folder / "in.off", folder / "a.ply");
+  EXPECT_NEAR(measured, last["error"], 0.02 * measured);
+}
+
+TEST(Command, ErrorFallsOverGrowingPrefixes) {
+  const TemporaryFolder folder;
+  write_off(folder / "in.off", bumpy_sphere());
+  ASSERT_EQ(run_zerotree({"convert", folder / "in.off", "--stream", folder / "out.zt"}).exit_code,
+            0);
+  double before = 1;
+  for (int bytes = 160; bytes <= 5120; bytes *= 2) {
+    ASSERT_EQ(run_zerotree({"decode", folder / "out.zt", "--bytes", std::to_string(bytes), "-o",
+                            folder / "a.ply"})
+                  .exit_code,
+              0);
+    const double error = compared_error(folder / "in.off", folder / "a.ply");
+    EXPECT_LT(error, 1.1 * before) << bytes;
+    before = error;
+  }
+  EXPECT_LT(before, 2e-3);
+}
+
+TEST(Command, SameBytesTwiceAndForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  write_off(folder / "in.off", bumpy_sphere());
+  for (const std::string run : {"1", "2", "1"}) {
+    const std::string name =
+        folder / ("t" + run + (std::filesystem::exists(folder / "t1.zt") ? "b" : ""));
+    ASSERT_EQ(run_zerotree({"convert", folder / "in.off", "-o", name + ".glb", "--stream",
+                            name + ".zt", "--threads", run})
+                  .exit_code,
+              0);
+  }
+  for (const std::string extension : {".glb", ".zt"}) {
+    EXPECT_EQ(read_bytes(folder / ("t1" + extension)), read_bytes(folder / ("t2b" + extension)));
+    EXPECT_EQ(read_bytes(folder / ("t1" + extension)), read_bytes(folder / ("t1b" + extension)));
+  }
+}
+
+TEST(Command, SplitPutsThePayloadInItsOwnFile) {
+  const TemporaryFolder folder;
+  write_off(folder / "in.off", bumpy_sphere());
+  ASSERT_EQ(
+      run_zerotree({"convert", folder / "in.off", "-o", folder / "out.gltf", "--split"}).exit_code,
+      0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out.zt.bin"));
+  ASSERT_EQ(run_zerotree({"decode", folder / "out.gltf", "-o", folder / "a.ply"}).exit_code, 0);
+  EXPECT_LT(compared_error(folder / "in.off", folder / "a.ply"), 5e-4);
+}
+
+TEST(Command, MeetsTargetsOrSaysThatItCannot) {
+  const TemporaryFolder folder;
+  write_off(folder / "in.off", bumpy_sphere());
+  ASSERT_EQ(run_zerotree({"convert", folder / "in.off", "--stream", folder / "out.zt",
+                          "--max-error", "1e-3"})
+                .exit_code,
+            0);
+  ASSERT_EQ(run_zerotree({"decode", folder / "out.zt", "-o", folder / "a.ply"}).exit_code, 0);
+  EXPECT_LE(compared_error(folder / "in.off", folder / "a.ply"), 1.02e-3);
+  ASSERT_EQ(run_zerotree({"convert", folder / "in.off", "-o", folder / "small.glb", "--target-size",
+                          "10000"})
+                .exit_code,
+            0);
+  EXPECT_LE(std::filesystem::file_size(folder / "small.glb"), 10000u);
+  EXPECT_EQ(run_zerotree({"convert", folder / "in.off", "--stream", folder / "no.zt", "--max-error",
+                          "1e-12"})
+                .exit_code,
+            5);
+  EXPECT_EQ(
+      run_zerotree({"convert", folder / "in.off", "-o", folder / "no.glb", "--target-size", "100"})
+          .exit_code,
+      5);
+  EXPECT_EQ(run_zerotree({"convert", folder / "in.off", "--stream", folder / "no.zt",
+                          "--memory-limit", "1MiB"})
+                .exit_code,
+            6);
+  EXPECT_FALSE(std::filesystem::exists(folder / "no.zt"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "no.glb"));
+}
+
+TEST(Command, RefusesWithTheRightCodeASentenceAndNoOutput) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "empty.off");
+  std::ofstream(folder / "nan.off") << "OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n";
+  std::ofstream(folder / "range.off") << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n";
+  // A Moebius strip of five quads.
+  std::ofstream moebius(folder / "moebius.obj");
+  for (int i = 0; i < 5; ++i)
+    moebius << "v " << i << " 0 " << i % 2 << "\nv " << i << " 1 " << i % 2 << "\n";
+  for (int i = 0; i < 4; ++i)
+    moebius << "f " << 2 * i + 1 << ' ' << 2 * i + 3 << ' ' << 2 * i + 4 << ' ' << 2 * i + 2
+            << "\n";
+  moebius << "f 9 2 1 10\n";
+  moebius.close();
+  const std::size_t files = files_in(folder.path);
+  const std::pair<std::string, int> cases[] = {
+      {"missing.off", 3}, {"empty.off", 3}, {"nan.off", 3}, {"range.off", 3}, {"moebius.obj", 4}};
+  for (const auto& [file, code] : cases) {
+    const CommandResult result =
+        run_zerotree({"convert", folder / file, "-o", folder / "x.glb", "--stream", folder / "x.zt",
+                      "--report", folder / "x.json"});
+    EXPECT_EQ(result.exit_code, code) << file << ": " << result.err;
+    EXPECT_TRUE(result.err.starts_with("zerotree: ")) << result.err;
+    EXPECT_GT(result.err.size(), 30u);
+    EXPECT_EQ(files_in(folder.path), files) << file;
+  }
+  EXPECT_EQ(run_zerotree({"convert"}).exit_code, 2);
+  EXPECT_EQ(run_zerotree({"convert", folder / "nan.off"}).exit_code, 2);
+  EXPECT_EQ(run_zerotree({"frobnicate"}).exit_code, 2);
+  EXPECT_EQ(run_zerotree({"--help"}).exit_code, 0);
+  EXPECT_EQ(run_zerotree({"validate", folder / "missing.glb"}).exit_code, 2);
+}
+
+TEST(Command, NeverTouchesTheInput) {
+  const TemporaryFolder folder;
+  write_off(folder / "in.off", bumpy_sphere());
+  const std::vector<char> before = read_bytes(folder / "in.off");
+  EXPECT_EQ(run_zerotree({"convert", folder / "in.off", "--stream", folder / "in.off"}).exit_code,
+            2);
+  EXPECT_EQ(read_bytes(folder / "in.off"), before);
+}
+
+}  // namespace
+}  // namespace zerotree::test
