@@ -5,7 +5,7 @@
 namespace zerotree::domain {
 namespace {
 
-constexpr std::uint32_t kInputPerBaseVertex = 400;
+constexpr std::uint32_t kInputPerBaseVertex = 240;
 constexpr std::uint32_t kMinimum = 12;
 
 std::uint32_t count_components(const TriangleTopology& topology) {

@@ -5,6 +5,9 @@
 namespace zerotree::domain {
 namespace {
 
+// Faces that a vertex inside a chain keeps on either side.
+constexpr int kLeastSector = 2;
+
 std::uint32_t vertex_at(const TriangleTopology& topology, const Corner& corner, int turn) {
   return topology.faces[corner.face][(corner.corner + turn) % 3];
 }
@@ -17,6 +20,14 @@ CollapseRules::CollapseRules(const TriangleTopology& topology, const std::vector
 int CollapseRules::valence(std::uint32_t vertex) {
   gather_star(topology_, vertex, other_star_);
   return static_cast<int>(other_star_.corners.size());
+}
+
+int CollapseRules::count_features(std::uint32_t vertex) {
+  gather_star(topology_, vertex, other_star_);
+  int count = other_star_.closed ? 0 : 1;
+  for (const auto& [face, corner] : other_star_.corners)
+    count += is_feature(topology_, face, kPrev[corner]) ? 1 : 0;
+  return count;
 }
 
 bool CollapseRules::allows(std::uint32_t removed, const Star& star, std::size_t at, bool last,
@@ -50,7 +61,8 @@ bool CollapseRules::allows(std::uint32_t removed, const Star& star, std::size_t 
     *apex_valence = valence(apex) - 1;
     if (*apex_valence < (other_star_.closed ? 3 : 1)) return false;
   }
-  return keeps_caps(star, site, caps);
+  return leaves_room_at_apex(site.left, site.left_apex) &&
+         leaves_room_at_apex(site.right, site.right_apex) && keeps_caps(star, site, caps);
 }
 
 // A chain vertex moves along its chain only, and leaves a face on each side of it: otherwise the
@@ -90,29 +102,44 @@ bool CollapseRules::has_link_condition(const Star& star, const CollapseSite& sit
   return star.closed || other_star_.closed || site.left == kNone || site.right == kNone;
 }
 
+// Faces around `vertex` from `face` (not counted) to the next feature.
+int CollapseRules::count_to_feature(std::uint32_t face, std::uint32_t vertex,
+                                    bool clockwise) const {
+  const std::uint32_t start = face;
+  int count = 0;
+  while (face != kNone) {
+    const int k = corner_of(topology_.faces[face], vertex);
+    const int edge = clockwise ? k : kPrev[k];
+    if (is_feature(topology_, face, edge)) break;
+    face = topology_.adjacent[face][edge];
+    if (face == start) break;
+    ++count;
+  }
+  return count;
+}
+
+// The apex loses the face `gone`. A vertex inside a chain needs two faces on either side: one alone
+// would have all its corners on the straight edge of the domain.
+bool CollapseRules::leaves_room_at_apex(std::uint32_t gone, std::uint32_t apex) const {
+  if (gone == kNone || kinds_[apex] != VertexKind::chain) return true;
+  return count_to_feature(gone, apex, true) + count_to_feature(gone, apex, false) >= kLeastSector;
+}
+
 bool CollapseRules::keeps_caps(const Star& star, const CollapseSite& site,
-                               const CollapseCaps& caps) const {
+                               const CollapseCaps& caps) {
   const int gone = (site.left != kNone ? 1 : 0) + (site.right != kNone ? 1 : 0);
   const int fan = static_cast<int>(star.corners.size()) - gone;
-  if (kinds_[site.kept] == VertexKind::smooth)
+  // The end of a crease has no sectors to keep apart.
+  if (kinds_[site.kept] == VertexKind::smooth || count_features(site.kept) == 1)
     return site.kept_valence <= std::max(caps.valence, 3) &&
            fan <= std::max(1.0, caps.fan_share * site.kept_valence);
 
-  // Faces of `kept` from the collapsed edge to the next feature, on either side.
-  const auto count_to_feature = [&](std::uint32_t face, bool clockwise) {
-    int count = 0;
-    while (face != kNone) {
-      const int k = corner_of(topology_.faces[face], site.kept);
-      const int edge = clockwise ? k : kPrev[k];
-      if (is_feature(topology_, face, edge)) break;
-      face = topology_.adjacent[face][edge];
-      ++count;
-    }
-    return count;
-  };
-  const int left = count_to_feature(site.left, true), right = count_to_feature(site.right, false);
-  const int cap = kinds_[site.kept] == VertexKind::corner ? caps.corner_sector : caps.sector;
-  if (kinds_[site.removed] == VertexKind::smooth) return left + fan + right <= cap;
+  const int left = count_to_feature(site.left, site.kept, true);
+  const int right = count_to_feature(site.right, site.kept, false);
+  const bool is_corner = kinds_[site.kept] == VertexKind::corner;
+  const int cap = is_corner ? caps.corner_sector : caps.sector;
+  if (kinds_[site.removed] == VertexKind::smooth)
+    return left + fan + right <= cap && left + fan + right >= (is_corner ? 1 : kLeastSector);
 
   // The chain divides the fan: count its part on the left of the chain's other edge.
   int fan_left = 0;
@@ -124,8 +151,10 @@ bool CollapseRules::keeps_caps(const Star& star, const CollapseSite& site,
     ++fan_left;
   }
   const int fan_right = fan - fan_left;
-  return (site.left == kNone || left + fan_left <= cap) &&
-         (site.right == kNone || right + fan_right <= cap);
+  // A fan that fills the whole sector leaves the removed vertex less than a straight angle only if
+  // it is one face less than a straight sector.
+  return (site.left == kNone || left + fan_left <= (left == 0 ? std::min(cap, 2) : cap)) &&
+         (site.right == kNone || right + fan_right <= (right == 0 ? std::min(cap, 2) : cap));
 }
 
 }  // namespace zerotree::domain

@@ -11,8 +11,8 @@ namespace zerotree::domain {
 /// Limits that keep the cone angles of the base mesh small enough for the undo to find room.
 struct CollapseCaps {
   int valence = 7;          ///< around a smooth vertex
-  int sector = 4;           ///< between two features at a chain vertex
-  int corner_sector = 3;    ///< between two features at a corner: cannot swap, so at most pi
+  int sector = 3;           ///< between two features at a vertex: 3 is a straight angle
+  int corner_sector = 3;    ///< the same at a corner, which cannot swap
   double fan_share = 0.67;  ///< of the new valence that one collapse may bring to a smooth vertex
   bool forbid_flips = true; ///< no face may turn by more than a right angle
 };
@@ -39,7 +39,10 @@ class CollapseRules {
  private:
   bool is_chain_step(const Star& star, const CollapseSite& site) const;
   bool has_link_condition(const Star& star, const CollapseSite& site);
-  bool keeps_caps(const Star& star, const CollapseSite& site, const CollapseCaps& caps) const;
+  int count_to_feature(std::uint32_t face, std::uint32_t vertex, bool clockwise) const;
+  bool leaves_room_at_apex(std::uint32_t gone, std::uint32_t apex) const;
+  bool keeps_caps(const Star& star, const CollapseSite& site, const CollapseCaps& caps);
+  int count_features(std::uint32_t vertex);
   int valence(std::uint32_t vertex);
 
   const TriangleTopology& topology_;

@@ -12,7 +12,7 @@ namespace {
 
 // What is still allowed when nothing else is left to collapse above the target.
 constexpr CollapseCaps kCaps[] = {{},
-                                  {.valence = 8, .sector = 5, .fan_share = 0.75},
+                                  {.valence = 8, .sector = 4, .fan_share = 0.75},
                                   {.valence = 8, .sector = 5, .corner_sector = 4, .fan_share = 0.75,
                                    .forbid_flips = false}};
 

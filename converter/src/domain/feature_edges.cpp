@@ -14,9 +14,9 @@ namespace {
 struct CreaseRule {
   double upper_cosine;
   double lower_cosine;
-  std::uint32_t min_edges;   // in a chain
-  double min_strong_share;   // of a chain's edges that reach the upper angle
-  double max_neighbour;      // turn of the surface beside the edge, as a share of the edge's own
+  double min_length;        // of the edges of connected chains, relative to the diagonal
+  double min_strong_share;  // of a chain's edges that reach the upper angle
+  double max_neighbour;     // turn of the surface beside the edge, as a share of the edge's own
 };
 
 constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
@@ -24,9 +24,9 @@ constexpr double radians(double degrees) { return degrees * std::numbers::pi / 1
 CreaseRule rule_for(double angle_degrees) {
   if (angle_degrees > 0) {
     const double cosine = std::cos(radians(angle_degrees));
-    return {cosine, cosine, 1, 0.0, 1e9};
+    return {cosine, cosine, 0.0, 0.0, 1e9};
   }
-  return {std::cos(radians(40.0)), std::cos(radians(15.0)), 8, 0.5, 0.35};
+  return {std::cos(radians(40.0)), std::cos(radians(15.0)), 0.5, 0.6, 0.35};
 }
 
 struct CandidateEdge {
@@ -121,14 +121,20 @@ std::uint32_t tag_crease_edges(const TriangleMesh& mesh, double crease_angle_deg
   const std::vector<CandidateEdge> candidates = find_candidates(mesh, rule, topology);
   ChainSets sets = join_chains(topology, candidates);
   std::vector<std::uint32_t> edges(candidates.size(), 0), strong(candidates.size(), 0);
+  std::vector<double> length(candidates.size(), 0.0);
   for (std::uint32_t i = 0; i < candidates.size(); ++i) {
-    ++edges[sets.find(i)];
-    strong[sets.find(i)] += candidates[i].strong ? 1u : 0u;
+    const auto& [face, edge, is_strong] = candidates[i];
+    const Triangle& t = topology.faces[face];
+    const std::uint32_t set = sets.find(i);
+    ++edges[set];
+    strong[set] += is_strong ? 1u : 0u;
+    length[set] += (mesh.positions[t[edge]] - mesh.positions[t[kNext[edge]]]).norm();
   }
+  const double min_length = rule.min_length * bounding_box_diagonal(mesh.positions);
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < candidates.size(); ++i) {
     const std::uint32_t set = sets.find(i);
-    if (edges[set] < rule.min_edges || strong[set] < rule.min_strong_share * edges[set]) continue;
+    if (length[set] < min_length || strong[set] < rule.min_strong_share * edges[set]) continue;
     const auto& [face, edge, is_strong] = candidates[i];
     const std::uint32_t other = topology.adjacent[face][edge];
     const int back = edge_towards(topology, other, face);
