@@ -45,7 +45,8 @@ Level quadrisect(const Level& coarse) {
   fine.vertex_count = coarse.vertex_count + edges;
   fine.edge_start.resize(3 * faces + 2 * edges);
   for (std::uint32_t e = 0; e < edges; ++e) {
-    fine.edge_start[3 * faces + 2 * e] = coarse.edge_start[e];
+    // OpenSubdiv lets both halves start at the midpoint.
+    fine.edge_start[3 * faces + 2 * e] = coarse.vertex_count + e;
     fine.edge_start[3 * faces + 2 * e + 1] = coarse.vertex_count + e;
   }
   fine.corners.reserve(4 * faces);
