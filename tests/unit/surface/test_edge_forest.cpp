@@ -71,7 +71,8 @@ TEST_P(EdgeForest, EveryEdgeHasOneCell) {
 /// Bits of a Morton index at every second place.
 std::uint32_t even_bits(std::size_t morton) {
   std::uint32_t value = 0;
-  for (int bit = 0; bit < 16; ++bit) value |= ((morton >> (2 * bit)) & 1u) << bit;
+  for (int bit = 0; bit < 16; ++bit)
+    value |= static_cast<std::uint32_t>((morton >> (2 * bit)) & 1u) << bit;
   return value;
 }
 
