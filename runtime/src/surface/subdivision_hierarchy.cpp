@@ -18,6 +18,11 @@ namespace Far = OpenSubdiv::Far;
 
 namespace {
 
+// The class templates themselves: the plain names' factory downcasts to a type that the object is
+// not, which sanitizers refuse.
+using StencilTable = Far::StencilTableReal<float>;
+using StencilTableFactory = Far::StencilTableFactoryReal<float>;
+
 SharedStencils detail_stencils(const RefinerLevel& level, WaveletTransform transform) {
   switch (transform) {
     case WaveletTransform::loop_quadrature_mirror:
@@ -26,20 +31,18 @@ SharedStencils detail_stencils(const RefinerLevel& level, WaveletTransform trans
   return {};
 }
 
-std::unique_ptr<const Far::StencilTable> subdivision_table(const Refiner& refiner) {
-  Far::StencilTableFactory::Options options;
-  options.interpolationMode = Far::StencilTableFactory::INTERPOLATE_VERTEX;
+std::unique_ptr<const StencilTable> subdivision_table(const Refiner& refiner) {
+  StencilTableFactory::Options options;
+  options.interpolationMode = StencilTableFactory::INTERPOLATE_VERTEX;
   options.generateOffsets = true;
   options.generateIntermediateLevels = true;
   // Each level's stencils refer to the level before it, whose details come in between.
   options.factorizeIntermediateLevels = false;
-  return std::unique_ptr<const Far::StencilTable>(
-      Far::StencilTableFactory::Create(refiner, options));
+  return std::unique_ptr<const StencilTable>(StencilTableFactory::Create(refiner, options));
 }
 
 /// The rows `first_row` .. of the table that make `row_count` vertices of one level.
-SubdivisionStencils slice(const Far::StencilTable& table, std::size_t first_row,
-                          std::size_t row_count) {
+SubdivisionStencils slice(const StencilTable& table, std::size_t first_row, std::size_t row_count) {
   const auto first = static_cast<std::ptrdiff_t>(first_row);
   const auto last = static_cast<std::ptrdiff_t>(first_row + row_count);
   SubdivisionStencils rows;
