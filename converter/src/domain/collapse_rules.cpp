@@ -54,9 +54,8 @@ bool CollapseRules::allows(std::uint32_t removed, const Star& star, std::size_t 
   site.kept_valence =
       static_cast<int>(other_star_.corners.size()) - gone + static_cast<int>(n) - gone;
   if (site.kept_valence < (kept_closed ? 3 : 1)) return false;
-  for (const auto& [apex, apex_valence] :
-       {std::pair{site.left_apex, &site.left_apex_valence},
-        std::pair{site.right_apex, &site.right_apex_valence}}) {
+  for (const auto& [apex, apex_valence] : {std::pair{site.left_apex, &site.left_apex_valence},
+                                           std::pair{site.right_apex, &site.right_apex_valence}}) {
     if (apex == kNone) continue;
     *apex_valence = valence(apex) - 1;
     if (*apex_valence < (other_star_.closed ? 3 : 1)) return false;

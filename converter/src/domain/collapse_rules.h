@@ -10,11 +10,11 @@ namespace zerotree::domain {
 
 /// Limits that keep the cone angles of the base mesh small enough for the undo to find room.
 struct CollapseCaps {
-  int valence = 7;          ///< around a smooth vertex
-  int sector = 3;           ///< between two features at a vertex: 3 is a straight angle
-  int corner_sector = 3;    ///< the same at a corner, which cannot swap
-  double fan_share = 0.67;  ///< of the new valence that one collapse may bring to a smooth vertex
-  bool forbid_flips = true; ///< no face may turn by more than a right angle
+  int valence = 7;           ///< around a smooth vertex
+  int sector = 3;            ///< between two features at a vertex: 3 is a straight angle
+  int corner_sector = 2;     ///< the same at a corner, which cannot swap: a straight one can fail
+  double fan_share = 0.67;   ///< of the new valence that one collapse may bring to a smooth vertex
+  bool forbid_flips = true;  ///< no face may turn by more than a right angle
 };
 
 /// A collapse of `removed` into `kept`, and what becomes of the fans around it.
@@ -22,7 +22,7 @@ struct CollapseSite {
   std::uint32_t removed = kNone, kept = kNone;
   std::uint32_t left = kNone, right = kNone;  ///< the faces of the edge, as in CollapseRecord
   std::uint32_t left_apex = kNone, right_apex = kNone;
-  int kept_valence = 0;                           ///< faces around `kept` afterwards
+  int kept_valence = 0;                               ///< faces around `kept` afterwards
   int left_apex_valence = 0, right_apex_valence = 0;  ///< faces around the apices afterwards
 };
 

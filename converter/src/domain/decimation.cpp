@@ -11,10 +11,10 @@ namespace zerotree::domain {
 namespace {
 
 // What is still allowed when nothing else is left to collapse above the target.
-constexpr CollapseCaps kCaps[] = {{},
-                                  {.valence = 8, .sector = 4, .fan_share = 0.75},
-                                  {.valence = 8, .sector = 5, .corner_sector = 4, .fan_share = 0.75,
-                                   .forbid_flips = false}};
+constexpr CollapseCaps kCaps[] = {
+    {},
+    {.valence = 8, .sector = 4, .corner_sector = 3, .fan_share = 0.75},
+    {.valence = 8, .sector = 5, .corner_sector = 4, .fan_share = 0.75, .forbid_flips = false}};
 
 // Merges `removed` into `kept`: the fan takes the place of the edge's two faces.
 void collapse(TriangleTopology& topology, const Star& star, const CollapseSite& site) {
@@ -28,9 +28,8 @@ void collapse(TriangleTopology& topology, const Star& star, const CollapseSite& 
     const int inner_edge = edge_towards(topology, inner, gone);
     const int bit = (topology.creases[gone] >> to_kept) & 1;
     topology.adjacent[inner][inner_edge] = outer;
-    topology.creases[inner] =
-        static_cast<std::uint8_t>((topology.creases[inner] & ~(1 << inner_edge)) |
-                                  (bit << inner_edge));
+    topology.creases[inner] = static_cast<std::uint8_t>(
+        (topology.creases[inner] & ~(1 << inner_edge)) | (bit << inner_edge));
     if (outer != kNone) topology.adjacent[outer][edge_towards(topology, outer, gone)] = inner;
     topology.face_of_vertex[apex] = inner;
     topology.face_of_vertex[site.kept] = inner;
@@ -140,11 +139,9 @@ class Decimator {
 
 }  // namespace
 
-std::vector<CollapseRecord> decimate(const TriangleMesh& mesh,
-                                     const std::vector<VertexKind>& kinds,
-                                     const std::vector<std::uint32_t>& pinned,
-                                     std::uint32_t target, TriangleTopology& topology,
-                                     const Progress& progress) {
+std::vector<CollapseRecord> decimate(const TriangleMesh& mesh, const std::vector<VertexKind>& kinds,
+                                     const std::vector<std::uint32_t>& pinned, std::uint32_t target,
+                                     TriangleTopology& topology, const Progress& progress) {
   return Decimator(mesh, kinds, pinned, topology).run(target, progress);
 }
 
@@ -156,8 +153,7 @@ void undo_collapse(TriangleTopology& topology, const CollapseRecord& collapse,
     return topology.adjacent[gone][is_left ? kPrev[k] : k];
   };
   const bool from_left = collapse.left != kNone;
-  const std::uint32_t last =
-      collapse.right != kNone ? inner_face(collapse.right, false) : kNone;
+  const std::uint32_t last = collapse.right != kNone ? inner_face(collapse.right, false) : kNone;
   std::uint32_t face = from_left ? inner_face(collapse.left, true) : last;
   // Without a left face the fan begins at the boundary: go there clockwise.
   while (!from_left) {

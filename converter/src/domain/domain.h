@@ -79,8 +79,7 @@ Domain build_domain(const TriangleMesh& mesh, const DomainOptions& options,
                     const Progress& progress);
 
 /// The domain of the same mesh (ear splits, features and all) with other `options`.
-Domain rebuild_domain(const Domain& domain, const DomainOptions& options,
-                      const Progress& progress);
+Domain rebuild_domain(const Domain& domain, const DomainOptions& options, const Progress& progress);
 
 /// Takes back one collapse, the last one that is not yet taken back: connectivity only. The faces
 /// that change from `kept` to `removed` are written to `fan`, counter-clockwise around both.

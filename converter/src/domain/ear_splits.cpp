@@ -13,7 +13,7 @@ class EarSplitter {
     const int back = edge_towards(topology_, other, face);
     const std::uint32_t a = topology_.faces[face][k], b = topology_.faces[face][kNext[k]];
     const std::uint32_t middle = add_vertex((mesh_.positions[a] + mesh_.positions[b]) / 2, face);
-    const std::uint32_t half = cut_in_two(face, k, middle);       // (middle, b, c)
+    const std::uint32_t half = cut_in_two(face, k, middle);            // (middle, b, c)
     const std::uint32_t other_half = cut_in_two(other, back, middle);  // (middle, a, d)
     topology_.adjacent[half][0] = other;
     topology_.adjacent[other][back] = half;

@@ -19,7 +19,9 @@ struct CreaseRule {
   double max_neighbour;     // turn of the surface beside the edge, as a share of the edge's own
 };
 
-constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+constexpr double radians(double degrees) {
+  return degrees * std::numbers::pi / 180.0;
+}
 
 CreaseRule rule_for(double angle_degrees) {
   if (angle_degrees > 0) {
@@ -86,8 +88,7 @@ std::vector<CandidateEdge> find_candidates(const TriangleMesh& mesh, const Creas
       if (g == kNone || g < f || normals[f].isZero() || normals[g].isZero()) continue;
       const double cosine = normals[f].dot(normals[g]);
       if (cosine > rule.lower_cosine) continue;
-      if (rule.max_neighbour < 1e8 &&
-          !turns_only_here(topology, normals, f, k, rule.max_neighbour))
+      if (rule.max_neighbour < 1e8 && !turns_only_here(topology, normals, f, k, rule.max_neighbour))
         continue;
       candidates.push_back({f, k, cosine <= rule.upper_cosine});
     }

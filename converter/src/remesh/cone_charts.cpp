@@ -29,7 +29,7 @@ ConeCharts build_base_charts(const domain::Domain& domain, const BaseDomain& bas
     for (int k = 0; k < 3; ++k) {
       const LatticeIsometry chart = corner_chart(k);
       charts.transitions[base.mesh_face[b]][(base.first_corner[b] + k) % 3] = {chart.dx, chart.dy,
-                                                                              0};
+                                                                               0};
     }
   return charts;
 }
@@ -41,8 +41,7 @@ LatticeIsometry face_transition(const ConeCharts& charts, std::uint32_t face, in
   const int back = domain::corner_of(there, here[kNext[k]]);
   const auto& mine = charts.transitions[face];
   const auto& theirs = charts.transitions[other];
-  if (charts.vertices[here[k]].cone == kNone)
-    return compose(mine[k], inverse(theirs[kNext[back]]));
+  if (charts.vertices[here[k]].cone == kNone) return compose(mine[k], inverse(theirs[kNext[back]]));
   if (charts.vertices[here[kNext[k]]].cone == kNone)
     return compose(mine[kNext[k]], inverse(theirs[back]));
   // Between two cones: the edge itself, which is integer in both charts, tells.

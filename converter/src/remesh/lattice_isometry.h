@@ -7,7 +7,8 @@
 
 namespace zerotree::remesh {
 
-/// A point of a chart in lattice coordinates (x, y): the point x + y w of the plane, w = e^(i pi/3).
+/// A point of a chart in lattice coordinates (x, y): the point x + y w of the plane, w = e^(i
+/// pi/3).
 using LatticePoint = Eigen::Vector2d;
 
 /// A rotation by `turns` x 60 degrees about the origin, then a translation by the Eisenstein
@@ -20,12 +21,8 @@ struct LatticeIsometry {
 };
 
 /// Rows of the rotations by 0..5 times 60 degrees in lattice coordinates.
-inline constexpr std::array<std::array<int, 4>, 6> kRotations{{{1, 0, 0, 1},
-                                                              {0, -1, 1, 1},
-                                                              {-1, -1, 1, 0},
-                                                              {-1, 0, 0, -1},
-                                                              {0, 1, -1, -1},
-                                                              {1, 1, -1, 0}}};
+inline constexpr std::array<std::array<int, 4>, 6> kRotations{
+    {{1, 0, 0, 1}, {0, -1, 1, 1}, {-1, -1, 1, 0}, {-1, 0, 0, -1}, {0, 1, -1, -1}, {1, 1, -1, 0}}};
 
 inline LatticePoint apply(const LatticeIsometry& map, const LatticePoint& p) {
   const auto& r = kRotations[map.turns];

@@ -58,8 +58,8 @@ Level quadrisect(const Level& coarse) {
     const auto half = [&](int k, std::uint32_t end) {
       return 3 * faces + 2 * e[k] + (coarse.edge_start[e[k]] == end ? 0 : 1);
     };
-    fine.corners.insert(fine.corners.end(), {{v[0], m0, m2}, {m0, v[1], m1}, {m2, m1, v[2]},
-                                             {m1, m2, m0}});
+    fine.corners.insert(fine.corners.end(),
+                        {{v[0], m0, m2}, {m0, v[1], m1}, {m2, m1, v[2]}, {m1, m2, m0}});
     fine.edges.insert(fine.edges.end(), {{half(0, v[0]), 3 * f, half(2, v[0])},
                                          {half(0, v[1]), half(1, v[1]), 3 * f + 1},
                                          {3 * f + 2, half(1, v[2]), half(2, v[2])},

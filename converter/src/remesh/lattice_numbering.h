@@ -16,9 +16,7 @@ struct LatticeNumbering {
   std::vector<std::uint32_t> vertices;
 
   std::uint32_t steps() const { return 1u << levels; }
-  std::size_t points_per_triangle() const {
-    return std::size_t{steps() + 1} * (steps() + 2) / 2;
-  }
+  std::size_t points_per_triangle() const { return std::size_t{steps() + 1} * (steps() + 2) / 2; }
   /// The vertex at lattice point (i, j) / 2^levels of the chart of base triangle `triangle`.
   std::uint32_t at(std::uint32_t triangle, std::uint32_t i, std::uint32_t j) const {
     return vertices[triangle * points_per_triangle() + row_offset(j) + i];

@@ -103,10 +103,10 @@ RemeshResult remesh(const domain::Domain& domain, const RemeshOptions& options,
   report.bijectivity = check_bijectivity(laid_out.charts, laid_out.base);
   if (report.bijectivity.flipped_faces > 0 ||
       report.bijectivity.worst_coverage > kCoverageTolerance)
-    throw Error(ExitCode::internal,
-                "the parameterisation is not one to one: " +
-                    std::to_string(report.bijectivity.flipped_faces) + " faces are flipped, the worst coverage is off by " +
-                    std::to_string(report.bijectivity.worst_coverage));
+    throw Error(ExitCode::internal, "the parameterisation is not one to one: " +
+                                        std::to_string(report.bijectivity.flipped_faces) +
+                                        " faces are flipped, the worst coverage is off by " +
+                                        std::to_string(report.bijectivity.worst_coverage));
 
   const bitstream::BaseTopology& base = laid_out.base.topology;
   count_base(base, report);

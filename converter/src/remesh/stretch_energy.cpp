@@ -28,8 +28,8 @@ double allowed_share(const Ring& ring, const Eigen::Vector2d& p, const Eigen::Ve
 }
 
 // The first point on the way from `p` to `q`, halving the rest, that has less energy; else `p`.
-Eigen::Vector2d search_line(const StretchEnergy& energy, const Ring& ring,
-                            const Eigen::Vector2d& p, double at_p, const Eigen::Vector2d& q) {
+Eigen::Vector2d search_line(const StretchEnergy& energy, const Ring& ring, const Eigen::Vector2d& p,
+                            double at_p, const Eigen::Vector2d& q) {
   Eigen::Vector2d step = (q - p) * allowed_share(ring, p, q);
   for (int i = 0; i < kMaxHalvings; ++i, step /= 2)
     if (energy.energy(p + step) < at_p) return p + step;
@@ -73,17 +73,17 @@ StretchEnergy::Value StretchEnergy::evaluate(const Eigen::Vector2d& p) const {
     const auto& l = terms_[i].squared_lengths;
     const double area = a.x() * b.y() - a.y() * b.x(), ab = a.dot(b);
     const double n = l[0] * ab + l[1] * (a.squaredNorm() - ab) + l[2] * (b.squaredNorm() - ab);
-    // Derivatives by p: a and b move by -p; the area's gradient is the edge turned by a right angle.
+    // Derivatives by p: a and b move by -p; the area's gradient is the edge turned by a right
+    // angle.
     const Eigen::Vector2d area_gradient(a.y() - b.y(), b.x() - a.x());
-    const Eigen::Vector2d n_gradient =
-        -l[0] * (a + b) + l[1] * (b - a) + l[2] * (a - b);
+    const Eigen::Vector2d n_gradient = -l[0] * (a + b) + l[1] * (b - a) + l[2] * (a - b);
     const double f = terms_[i].weight / (area * area);
     value.energy += f * n;
     value.gradient += f * (n_gradient - 2 * n / area * area_gradient);
     const Eigen::Matrix2d mixed = n_gradient * area_gradient.transpose();
-    value.hessian += f * (2 * l[0] * Eigen::Matrix2d::Identity() -
-                          2 / area * (mixed + mixed.transpose()) +
-                          6 * n / (area * area) * area_gradient * area_gradient.transpose());
+    value.hessian +=
+        f * (2 * l[0] * Eigen::Matrix2d::Identity() - 2 / area * (mixed + mixed.transpose()) +
+             6 * n / (area * area) * area_gradient * area_gradient.transpose());
   }
   return value;
 }

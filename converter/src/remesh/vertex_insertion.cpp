@@ -171,9 +171,8 @@ bool VertexInsertion::place_on_chain(ConeCharts& charts) {
   const double after = (here - ring_.positions[sector_.chain]).norm();
   const double guess = before + after > 0 ? before / (before + after) : 0.5;
   const double margin = 0.05 * (high - low);
-  const double s =
-      minimise_on_line(energy_, ring_, a, b, std::clamp(guess, low + margin, high - margin),
-                       kNewtonSteps);
+  const double s = minimise_on_line(energy_, ring_, a, b,
+                                    std::clamp(guess, low + margin, high - margin), kNewtonSteps);
 
   VertexChart vertex;
   double t_fixed = 0, t_chain = 1;
