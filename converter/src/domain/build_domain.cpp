@@ -13,10 +13,7 @@ namespace {
 
 // The faces that no collapse removed.
 std::vector<std::uint32_t> remaining_faces(const Domain& domain) {
-  std::vector<std::uint8_t> removed(domain.topology.faces.size(), 0);
-  for (const CollapseRecord& collapse : domain.collapses)
-    for (std::uint32_t face : {collapse.left, collapse.right})
-      if (face != kNone) removed[face] = 1;
+  const std::vector<std::uint8_t> removed = mark_removed_faces(domain);
   std::vector<std::uint32_t> faces;
   for (std::uint32_t f = 0; f < removed.size(); ++f)
     if (!removed[f]) faces.push_back(f);
@@ -47,8 +44,7 @@ void decimate_to_base(const DomainOptions& options, const Progress& progress, Do
       options.base_vertices > 0
           ? options.base_vertices
           : automatic_base_size(static_cast<std::uint32_t>(domain.kinds.size()), report);
-  domain.collapses = decimate(domain.mesh, domain.kinds, options.pinned_vertices,
-                              report.target_base_vertices, domain.topology, progress);
+  decimate(domain, options.pinned_vertices, report.target_base_vertices, progress);
   domain.base_faces = remaining_faces(domain);
   count_base(domain);
 }
@@ -73,18 +69,14 @@ Domain build_domain(const TriangleMesh& mesh, const DomainOptions& options,
   return domain;
 }
 
-Domain rebuild_domain(const Domain& domain, const DomainOptions& options,
-                      const Progress& progress) {
-  Domain rebuilt;
-  rebuilt.mesh = domain.mesh;
-  rebuilt.kinds = domain.kinds;
-  rebuilt.topology = domain.topology;
+void rebuild_base(Domain& domain, const DomainOptions& options, std::size_t keep,
+                  const Progress& progress) {
   std::vector<std::uint32_t> fan;
-  for (std::size_t i = domain.collapses.size(); i-- > 0;)
-    undo_collapse(rebuilt.topology, domain.collapses[i], fan);
-  rebuilt.report = domain.report;
-  decimate_to_base(options, progress, rebuilt);
-  return rebuilt;
+  while (domain.collapses.size() > keep) {
+    undo_collapse(domain.topology, domain.collapses.back(), fan);
+    domain.collapses.pop_back();
+  }
+  decimate_to_base(options, progress, domain);
 }
 
 }  // namespace zerotree::domain

@@ -45,9 +45,11 @@ std::vector<Eigen::Vector3d> normalised_positions(const TriangleMesh& mesh) {
 }
 
 std::vector<Quadric> vertex_quadrics(const TriangleTopology& topology,
+                                     const std::vector<std::uint8_t>& gone,
                                      const std::vector<Eigen::Vector3d>& positions) {
   std::vector<Quadric> quadrics(positions.size());
   for (std::uint32_t f = 0; f < topology.faces.size(); ++f) {
+    if (gone[f]) continue;
     const Triangle& t = topology.faces[f];
     const Eigen::Vector3d cross =
         (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]);

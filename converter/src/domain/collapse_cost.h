@@ -12,7 +12,9 @@ namespace zerotree::domain {
 std::vector<Eigen::Vector3d> normalised_positions(const TriangleMesh& mesh);
 
 /// One quadric a vertex: the planes of its faces by area, and upright planes along the boundary.
+/// Faces with a mark in `gone` are passed over.
 std::vector<Quadric> vertex_quadrics(const TriangleTopology& topology,
+                                     const std::vector<std::uint8_t>& gone,
                                      const std::vector<Eigen::Vector3d>& positions);
 
 /// Cost of merging the vertex of `star` as `site` says: (quadric + area term) x aspect x

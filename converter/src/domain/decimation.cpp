@@ -42,42 +42,36 @@ void collapse(TriangleTopology& topology, const Star& star, const CollapseSite& 
 
 class Decimator {
  public:
-  Decimator(const TriangleMesh& mesh, const std::vector<VertexKind>& kinds,
-            const std::vector<std::uint32_t>& pinned, TriangleTopology& topology)
-      : topology_(topology),
-        positions_(normalised_positions(mesh)),
-        quadrics_(vertex_quadrics(topology, positions_)),
-        rules_(topology, kinds),
-        heap_(static_cast<std::uint32_t>(kinds.size())),
-        fixed_(kinds.size(), 0) {
-    for (std::uint32_t v = 0; v < kinds.size(); ++v) fixed_[v] = kinds[v] == VertexKind::corner;
+  Decimator(Domain& domain, const std::vector<std::uint32_t>& pinned)
+      : topology_(domain.topology),
+        records_(domain.collapses),
+        positions_(normalised_positions(domain.mesh)),
+        quadrics_(vertex_quadrics(topology_, mark_removed_faces(domain), positions_)),
+        rules_(topology_, domain.kinds),
+        heap_(static_cast<std::uint32_t>(domain.kinds.size())),
+        fixed_(domain.kinds.size(), 0) {
+    for (std::uint32_t v = 0; v < fixed_.size(); ++v)
+      fixed_[v] = domain.kinds[v] == VertexKind::corner;
     for (std::uint32_t v : pinned) fixed_[v] = 1;
+    for (const CollapseRecord& record : records_) fixed_[record.removed] = 1;
   }
 
-  std::vector<CollapseRecord> run(std::uint32_t target, const Progress& progress) {
-    const std::uint32_t count = static_cast<std::uint32_t>(positions_.size());
-    std::vector<CollapseRecord> records;
-    records.reserve(count > target ? count - target : 0);
+  void run(std::uint32_t target, const Progress& progress) {
+    const std::size_t count = positions_.size();
+    records_.reserve(count > target ? count - target : 0);
     for (const CollapseCaps& caps : kCaps) {
       caps_ = caps;
-      fill_heap(records);
-      while (!heap_.empty() && count - records.size() > target) {
-        if (records.size() % 65536 == 0)
-          report_progress(progress, "decimating", static_cast<double>(records.size()) / count);
-        collapse_cheapest(records);
+      for (std::uint32_t v = 0; v < count; ++v) update(v);
+      while (!heap_.empty() && count - records_.size() > target) {
+        if (records_.size() % 65536 == 0)
+          report_progress(progress, "decimating",
+                          static_cast<double>(records_.size()) / static_cast<double>(count));
+        collapse_cheapest();
       }
     }
-    return records;
   }
 
  private:
-  void fill_heap(const std::vector<CollapseRecord>& records) {
-    std::vector<std::uint8_t> removed(positions_.size(), 0);
-    for (const CollapseRecord& record : records) removed[record.removed] = 1;
-    for (std::uint32_t v = 0; v < positions_.size(); ++v)
-      if (!removed[v]) update(v);
-  }
-
   // The cheapest allowed collapse of the vertex; infinite cost if there is none.
   double cheapest_site(std::uint32_t vertex, CollapseSite& best) {
     double best_cost = std::numeric_limits<double>::infinity();
@@ -107,7 +101,7 @@ class Decimator {
       heap_.remove(vertex);
   }
 
-  void collapse_cheapest(std::vector<CollapseRecord>& records) {
+  void collapse_cheapest() {
     const std::uint32_t vertex = heap_.top();
     CollapseSite site;
     const double cost = cheapest_site(vertex, site);
@@ -117,7 +111,8 @@ class Decimator {
     heap_.remove(vertex);
     collapse(topology_, star_, site);
     quadrics_[site.kept].add(quadrics_[vertex]);
-    records.push_back({vertex, site.kept, site.left, site.right});
+    fixed_[vertex] = 1;
+    records_.push_back({vertex, site.kept, site.left, site.right});
     gather_star(topology_, site.kept, kept_star_);
     update(site.kept);
     for (std::size_t i = 0; i < kept_star_.corners.size(); ++i) {
@@ -128,21 +123,29 @@ class Decimator {
   }
 
   TriangleTopology& topology_;
+  std::vector<CollapseRecord>& records_;
   std::vector<Eigen::Vector3d> positions_;
   std::vector<Quadric> quadrics_;
   CollapseRules rules_;
   IndexedHeap heap_;
-  std::vector<std::uint8_t> fixed_;
+  std::vector<std::uint8_t> fixed_;  // corners, pinned and removed vertices
   CollapseCaps caps_;
   Star star_, kept_star_;
 };
 
 }  // namespace
 
-std::vector<CollapseRecord> decimate(const TriangleMesh& mesh, const std::vector<VertexKind>& kinds,
-                                     const std::vector<std::uint32_t>& pinned, std::uint32_t target,
-                                     TriangleTopology& topology, const Progress& progress) {
-  return Decimator(mesh, kinds, pinned, topology).run(target, progress);
+void decimate(Domain& domain, const std::vector<std::uint32_t>& pinned, std::uint32_t target,
+              const Progress& progress) {
+  Decimator(domain, pinned).run(target, progress);
+}
+
+std::vector<std::uint8_t> mark_removed_faces(const Domain& domain) {
+  std::vector<std::uint8_t> removed(domain.topology.faces.size(), 0);
+  for (const CollapseRecord& collapse : domain.collapses)
+    for (std::uint32_t face : {collapse.left, collapse.right})
+      if (face != kNone) removed[face] = 1;
+  return removed;
 }
 
 void undo_collapse(TriangleTopology& topology, const CollapseRecord& collapse,

@@ -8,11 +8,13 @@
 
 namespace zerotree::domain {
 
-/// Collapses the cheapest vertices of `topology` until `target` vertices are left or no collapse
-/// is allowed. Vertices of `pinned` are not removed. `mesh` gives the positions of the vertices.
-/// Returns the collapses in their order. O(n log n).
-std::vector<CollapseRecord> decimate(const TriangleMesh& mesh, const std::vector<VertexKind>& kinds,
-                                     const std::vector<std::uint32_t>& pinned, std::uint32_t target,
-                                     TriangleTopology& topology, const Progress& progress);
+/// Collapses the cheapest vertices of `domain.topology` until `target` vertices are left or no
+/// collapse is allowed, after those that `domain.collapses` has already, and adds them there.
+/// Vertices of `pinned` are not removed. O(n log n).
+void decimate(Domain& domain, const std::vector<std::uint32_t>& pinned, std::uint32_t target,
+              const Progress& progress);
+
+/// Of each face of the mesh: 1 if a collapse removed it.
+std::vector<std::uint8_t> mark_removed_faces(const Domain& domain);
 
 }  // namespace zerotree::domain

@@ -78,8 +78,10 @@ struct Domain {
 Domain build_domain(const TriangleMesh& mesh, const DomainOptions& options,
                     const Progress& progress);
 
-/// The domain of the same mesh (ear splits, features and all) with other `options`.
-Domain rebuild_domain(const Domain& domain, const DomainOptions& options, const Progress& progress);
+/// Takes back the collapses of `domain` but the first `keep`, and decimates again from there with
+/// other `options`. The distance to the mesh is then measured from where it begins again.
+void rebuild_base(Domain& domain, const DomainOptions& options, std::size_t keep,
+                  const Progress& progress);
 
 /// Takes back one collapse, the last one that is not yet taken back: connectivity only. The faces
 /// that change from `kept` to `removed` are written to `fan`, counter-clockwise around both.

@@ -15,7 +15,7 @@ namespace {
 // Sweeps of relaxation each time that the number of vertices has doubled.
 constexpr int kSweeps = 2;
 // The undo may ask for so many more base vertices before the mesh is given up.
-constexpr std::uint32_t kMaxRebuilds = 64;
+constexpr std::uint32_t kMaxRebuilds = 1000;
 constexpr double kFacesPerInputFace = 2.25;
 constexpr int kMaxLevels = 12;
 constexpr std::uint64_t kMaxVertices = std::uint64_t{1} << 30;
@@ -47,17 +47,20 @@ void count_base(const bitstream::BaseTopology& base, RemeshReport& report) {
 Parameterisation parameterise_somehow(const domain::Domain& domain, const Progress& progress,
                                       RemeshReport& report) {
   Parameterisation result = parameterise(domain, progress);
+  if (result.stuck == 0) return result;
+  domain::Domain retry = domain;
   domain::DomainOptions options;
   options.base_vertices = domain.report.target_base_vertices;
-  while (result.stuck_vertex != kNone) {
+  while (result.stuck > 0) {
     if (++report.rebuilds > kMaxRebuilds)
       throw Error(ExitCode::refused_topology,
                   "no base mesh was found over which the mesh can be laid out; ask for more base "
                   "vertices than " +
-                      std::to_string(options.base_vertices));
-    options.pinned_vertices.push_back(result.stuck_vertex);
+                      std::to_string(retry.report.base_vertices));
+    options.pinned_vertices.push_back(retry.collapses[result.stuck - 1].removed);
     std::ranges::sort(options.pinned_vertices);
-    result = parameterise(domain::rebuild_domain(domain, options, progress), progress);
+    domain::rebuild_base(retry, options, result.stuck - 1, progress);
+    result = parameterise(retry, progress);
   }
   return result;
 }
@@ -65,7 +68,7 @@ Parameterisation parameterise_somehow(const domain::Domain& domain, const Progre
 }  // namespace
 
 Parameterisation parameterise(const domain::Domain& domain, const Progress& progress) {
-  Parameterisation result{build_base_domain(domain), {}, 0, kNone};
+  Parameterisation result{build_base_domain(domain), {}, 0, 0};
   result.charts = build_base_charts(domain, result.base);
   const std::vector<Eigen::Vector3d>& positions = domain.mesh.positions;
   VertexInsertion insertion(result.base, positions, domain.kinds);
@@ -74,7 +77,7 @@ Parameterisation parameterise(const domain::Domain& domain, const Progress& prog
   std::size_t next_sweep = result.base.mesh_vertex.size();
   for (std::size_t i = 0; i < collapses; ++i) {
     if (!insertion.insert(result.charts, domain.collapses[collapses - 1 - i])) {
-      result.stuck_vertex = domain.collapses[collapses - 1 - i].removed;
+      result.stuck = collapses - i;
       return result;
     }
     if (i + 1 < next_sweep || i + 1 == collapses) continue;

@@ -27,7 +27,7 @@ struct RemeshReport {
   std::uint32_t finest_vertices = 0;
   /// How often a re-inserted vertex took the place of a base vertex.
   std::uint32_t cone_swaps = 0;
-  /// How often the undo found no room and the domain was built again with that vertex in the base.
+  /// How often the undo found no room and the base was built again with that vertex in it.
   std::uint32_t rebuilds = 0;
   /// Of the parameterisation; both 0 (up to 1e-9) in every result.
   BijectivityReport bijectivity;
@@ -43,8 +43,8 @@ struct Parameterisation {
   BaseDomain base;
   ConeCharts charts;
   std::uint32_t cone_swaps = 0;
-  /// The vertex for which the undo found no room; kNone if all is well.
-  std::uint32_t stuck_vertex = kNone;
+  /// The collapse whose undo found no room, counted from 1 in their order; 0 if all is well.
+  std::size_t stuck = 0;
 };
 
 /// Undoes the collapses of `domain` on its base surface, relaxing as it grows.
