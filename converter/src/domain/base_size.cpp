@@ -68,7 +68,7 @@ void count_topology(const TriangleTopology& topology, DomainReport& report) {
 
 std::uint32_t automatic_base_size(std::uint32_t vertices, const DomainReport& report) {
   const std::uint32_t needed =
-      4 * report.components + 4 * report.boundary_loops + 6 * report.genus + report.corners;
+      4 * report.components + 4 * report.boundary_loops + 6 * report.genus + 2 * report.corners;
   return std::min(vertices, std::max({vertices / kInputPerBaseVertex, needed, kMinimum}));
 }
 

@@ -115,10 +115,14 @@ class Decimator {
     records_.push_back({vertex, site.kept, site.left, site.right});
     gather_star(topology_, site.kept, kept_star_);
     update(site.kept);
-    for (std::size_t i = 0; i < kept_star_.corners.size(); ++i) {
-      const auto [face, corner] = kept_star_.corners[i];
-      if (i == 0 && !kept_star_.closed) update(topology_.faces[face][kNext[corner]]);
-      update(topology_.faces[face][kPrev[corner]]);
+    // The others' costs have mostly risen, which is seen when their turn comes; only those that had
+    // no collapse may have one now.
+    const auto revive = [&](std::uint32_t v) {
+      if (!heap_.contains(v)) update(v);
+    };
+    for (const auto& [face, corner] : kept_star_.corners) {
+      revive(topology_.faces[face][kNext[corner]]);
+      revive(topology_.faces[face][kPrev[corner]]);
     }
   }
 

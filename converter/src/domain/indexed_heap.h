@@ -14,6 +14,7 @@ class IndexedHeap {
       : place_(index_count, kAbsent), cost_(index_count, 0.0) {}
 
   bool empty() const { return heap_.empty(); }
+  bool contains(std::uint32_t index) const { return place_[index] != kAbsent; }
   std::uint32_t top() const { return heap_.front(); }
   double cost(std::uint32_t index) const { return cost_[index]; }
 

@@ -101,8 +101,8 @@ TEST(Remesh, KeepsCreasesSharp) {
   const RemeshResult result = remesh(domain, {}, {});
   EXPECT_EQ(result.mesh.base.corner_vertices.size(), 8u);
   EXPECT_GE(result.mesh.base.crease_edges.size(), 12u);
-  const measure::SurfaceDistance distance = measure::compare_surfaces(
-      cube, finest_mesh(result.mesh), {.samples = 20'000, .threads = 1});
+  const measure::SurfaceDistance distance =
+      measure::compare_surfaces(cube, finest_mesh(result.mesh), {.samples = 20'000, .threads = 1});
   EXPECT_LT(distance.relative_hausdorff(), 1e-9);
 }
 
@@ -111,8 +111,7 @@ TEST(Remesh, TakesTheLevelsAskedFor) {
   for (int levels : {0, 1, 3}) {
     const RemeshResult result = remesh(domain, {.levels = levels}, {});
     EXPECT_EQ(result.mesh.levels, levels);
-    EXPECT_EQ(finest_mesh(result.mesh).triangles.size(),
-              result.report.base_faces << (2 * levels));
+    EXPECT_EQ(finest_mesh(result.mesh).triangles.size(), result.report.base_faces << (2 * levels));
   }
   EXPECT_THROW(remesh(domain, {.levels = 30}, {}), Error);
 }

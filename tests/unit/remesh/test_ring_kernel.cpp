@@ -21,8 +21,8 @@ TEST(RingKernel, OfASquareIsItsCentre) {
 }
 
 TEST(RingKernel, OfADeepNotchIsEmpty) {
-  EXPECT_FALSE(kernel_centroid(
-      ring_of({{0, 0}, {4, 0}, {4, 4}, {3, 4}, {3, 1}, {1, 1}, {1, 4}, {0, 4}})));
+  EXPECT_FALSE(
+      kernel_centroid(ring_of({{0, 0}, {4, 0}, {4, 4}, {3, 4}, {3, 1}, {1, 1}, {1, 4}, {0, 4}})));
 }
 
 TEST(RingKernel, IntervalOnALine) {
