@@ -6,7 +6,9 @@ namespace zerotree::domain {
 namespace {
 
 constexpr std::uint32_t kInputPerBaseVertex = 240;
-constexpr std::uint32_t kMinimum = 12;
+// Small meshes need more than their share: this many vertices, but no more than one in 16.
+constexpr std::uint32_t kSmallBase = 60;
+constexpr std::uint32_t kInputPerSmallBaseVertex = 16;
 
 std::uint32_t count_components(const TriangleTopology& topology) {
   std::vector<std::uint8_t> seen(topology.faces.size(), 0);
@@ -69,7 +71,8 @@ void count_topology(const TriangleTopology& topology, DomainReport& report) {
 std::uint32_t automatic_base_size(std::uint32_t vertices, const DomainReport& report) {
   const std::uint32_t needed =
       4 * report.components + 4 * report.boundary_loops + 6 * report.genus + 2 * report.corners;
-  return std::min(vertices, std::max({vertices / kInputPerBaseVertex, needed, kMinimum}));
+  const std::uint32_t small = std::min(kSmallBase, vertices / kInputPerSmallBaseVertex);
+  return std::min(vertices, std::max({vertices / kInputPerBaseVertex, needed, small}));
 }
 
 }  // namespace zerotree::domain

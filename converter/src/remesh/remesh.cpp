@@ -15,7 +15,10 @@ namespace {
 // Sweeps of relaxation each time that the number of vertices has doubled.
 constexpr int kSweeps = 2;
 // The undo may ask for so many more base vertices before the mesh is given up.
-constexpr std::uint32_t kMaxRebuilds = 1000;
+constexpr std::uint32_t kMaxRebuilds = 300;
+// After so many, each goes back over so many collapses more than the one before.
+constexpr std::uint32_t kPatience = 16;
+constexpr std::uint32_t kBackSteps = 8;
 constexpr double kFacesPerInputFace = 2.25;
 constexpr int kMaxLevels = 12;
 constexpr std::uint64_t kMaxVertices = std::uint64_t{1} << 30;
@@ -57,9 +60,18 @@ Parameterisation parameterise_somehow(const domain::Domain& domain, const Progre
                   "no base mesh was found over which the mesh can be laid out; ask for more base "
                   "vertices than " +
                       std::to_string(retry.report.base_vertices));
-    options.pinned_vertices.push_back(retry.collapses[result.stuck - 1].removed);
+    // A mesh full of features gets stuck often: go back further each time, so that it ends soon.
+    const std::size_t stuck = result.stuck - 1;
+    const std::size_t back =
+        report.rebuilds > kPatience ? kBackSteps * (report.rebuilds - kPatience) : 0;
+    const std::size_t first = stuck - std::min(stuck, back);
+    for (std::size_t i = first; i <= stuck; ++i) {
+      const std::uint32_t removed = retry.collapses[i].removed;
+      if (i == stuck || retry.kinds[removed] == domain::VertexKind::chain)
+        options.pinned_vertices.push_back(removed);
+    }
     std::ranges::sort(options.pinned_vertices);
-    domain::rebuild_base(retry, options, result.stuck - 1, progress);
+    domain::rebuild_base(retry, options, first, progress);
     result = parameterise(retry, progress);
   }
   return result;
