@@ -214,29 +214,22 @@ LatticeIsometry VertexInsertion::chain_chart(const ConeCharts& charts, VertexCha
     t_fixed = end_of_edge(fixed.cone);
     return to_end;
   }
+  // Between two cones: the base edge itself, which runs one way or the other.
   const LatticeIsometry& to_fixed = charts.transitions[start][at];
   for (std::uint32_t f = 0; f < base_.topology.triangles.size(); ++f)
     for (int edge = 0; edge < 3; ++edge) {
       const Triangle& corners = base_.topology.triangles[f];
-      if (corners[edge] != fixed.cone || corners[kNext[edge]] != end.cone) continue;
+      const bool forward = corners[edge] == fixed.cone && corners[kNext[edge]] == end.cone;
+      const bool backward = corners[edge] == end.cone && corners[kNext[edge]] == fixed.cone;
+      if (!forward && !backward) continue;
       vertex = {{0, 0}, f, kNone, static_cast<std::uint8_t>(edge)};
-      t_fixed = 0;
-      t_chain = 1;
+      t_fixed = forward ? 0 : 1;
+      t_chain = forward ? 1 : 0;
+      const LatticeIsometry &origin = forward ? to_fixed : to_end,
+                            &unit = forward ? to_end : to_fixed;
       for (std::int16_t turns = 0; turns < 6; ++turns) {
-        const LatticeIsometry map{to_fixed.dx, to_fixed.dy, turns};
-        if (apply(map, {1, 0}) == LatticePoint(to_end.dx, to_end.dy)) return map;
-      }
-    }
-  for (std::uint32_t f = 0; f < base_.topology.triangles.size(); ++f)
-    for (int edge = 0; edge < 3; ++edge) {
-      const Triangle& corners = base_.topology.triangles[f];
-      if (corners[edge] != end.cone || corners[kNext[edge]] != fixed.cone) continue;
-      vertex = {{0, 0}, f, kNone, static_cast<std::uint8_t>(edge)};
-      t_fixed = 1;
-      t_chain = 0;
-      for (std::int16_t turns = 0; turns < 6; ++turns) {
-        const LatticeIsometry map{to_end.dx, to_end.dy, turns};
-        if (apply(map, {1, 0}) == LatticePoint(to_fixed.dx, to_fixed.dy)) return map;
+        const LatticeIsometry map{origin.dx, origin.dy, turns};
+        if (apply(map, {1, 0}) == LatticePoint(unit.dx, unit.dy)) return map;
       }
     }
   throw Error(ExitCode::internal, "parameterisation: a feature has left its base edge");
