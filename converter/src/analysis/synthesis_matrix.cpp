@@ -1,31 +1,43 @@
 #include "analysis/synthesis_matrix.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace zerotree::analysis {
 
+// Filled in two passes over the stencils, counting first: a list of triplets would take several
+// times the matrix itself. Columns ascend in a row because details are visited in edge order.
 SparseMatrix synthesis_matrix(const surface::SubdivisionLevel& level) {
-  using Entry = Eigen::Triplet<double, int>;
   const auto& subdivision = level.subdivision;
   const auto& details = level.details;
-  std::vector<Entry> entries;
-  entries.reserve(subdivision.indices.size() + details.indices.size());
-  for (std::size_t row = 0; row < subdivision.sizes.size(); ++row) {
-    const auto begin = static_cast<std::size_t>(subdivision.offsets[row]);
-    const auto end = begin + static_cast<std::size_t>(subdivision.sizes[row]);
-    for (std::size_t k = begin; k < end; ++k)
-      entries.emplace_back(static_cast<int>(row), subdivision.indices[k], subdivision.weights[k]);
+  const std::size_t rows = subdivision.sizes.size();
+  const auto size = static_cast<Eigen::Index>(rows);
+  SparseMatrix matrix(size, size);
+  matrix.resizeNonZeros(
+      static_cast<Eigen::Index>(subdivision.indices.size() + details.indices.size()));
+  int* begin = matrix.outerIndexPtr();
+  std::fill(begin, begin + rows + 1, 0);
+  for (std::size_t row = 0; row < rows; ++row) begin[row + 1] = subdivision.sizes[row];
+  for (const std::uint32_t vertex : details.indices) ++begin[vertex + 1];
+  std::partial_sum(begin, begin + rows + 1, begin);
+
+  std::vector<int> next(begin, begin + rows);
+  const auto add = [&](std::size_t row, int column, float weight) {
+    matrix.innerIndexPtr()[next[row]] = column;
+    matrix.valuePtr()[next[row]++] = static_cast<double>(weight);
+  };
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto first = static_cast<std::size_t>(subdivision.offsets[row]);
+    for (std::size_t k = first; k < first + static_cast<std::size_t>(subdivision.sizes[row]); ++k)
+      add(row, subdivision.indices[k], subdivision.weights[k]);
   }
   for (std::size_t edge = 0; edge < details.row_count(); ++edge) {
     const float* weight = details.row_weights(edge);
     for (const std::uint32_t vertex : details.row_indices(edge))
-      entries.emplace_back(static_cast<int>(vertex), static_cast<int>(level.vertex_count + edge),
-                           *weight++);
+      add(vertex, static_cast<int>(level.vertex_count + edge), *weight++);
   }
-  const auto size = static_cast<Eigen::Index>(subdivision.sizes.size());
-  SparseMatrix matrix(size, size);
-  matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
 

@@ -58,7 +58,8 @@ CoarseAndDetails split_level(const surface::SubdivisionLevel& level, const Point
                              const AnalysisOptions& options) {
   SparseMatrix matrix = synthesis_matrix(level);
   const Eigen::VectorXd scales = column_scales(level);
-  matrix = matrix * scales.asDiagonal();
+  for (Eigen::Index entry = 0; entry < matrix.nonZeros(); ++entry)
+    matrix.valuePtr()[entry] *= scales[matrix.innerIndexPtr()[entry]];
   const Eigen::Map<const Eigen::Matrix3Xd> fine_points(fine.data()->data(), 3,
                                                        static_cast<Eigen::Index>(fine.size()));
   // P reproduces constants: centring costs nothing and makes the tolerance one of shape.

@@ -1,5 +1,7 @@
 // The command `zerotree`: parses the command line, runs a subcommand, turns failures into exit
 // codes and sentences.
+#include <malloc.h>
+
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -45,6 +47,9 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // The arrays of a stage go back to the system when the stage ends. By default glibc raises this
+  // threshold as it sees large blocks freed, and then keeps them, holes and all.
+  mallopt(M_MMAP_THRESHOLD, 1 << 18);
   try {
     return run(argc, argv);
   } catch (const zerotree::Error& error) {

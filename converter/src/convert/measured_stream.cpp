@@ -57,8 +57,8 @@ gltf::ProgressiveAsset make_asset(const MeasuredStream& payload, int levels, dou
   for (const report::PrefixError& prefix : payload.table.prefixes)
     entries.push_back({prefix.bytes, prefix.error * diagonal});
   asset.prefixes = gltf::monotone_prefixes(std::move(entries));
-  asset.bounds_min = payload.table.bounds_min;
-  asset.bounds_max = payload.table.bounds_max;
+  asset.bounds_min = payload.table.bounds.min();
+  asset.bounds_max = payload.table.bounds.max();
   asset.source_diagonal = diagonal;
   return asset;
 }

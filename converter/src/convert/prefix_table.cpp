@@ -12,6 +12,8 @@ namespace zerotree::convert {
 namespace {
 
 constexpr double kLowestRate = 1.0 / 8;  // bits per vertex
+// Of the diagonal: prefixes between two of the table may reach a little further than both.
+constexpr double kBoundsMargin = 0.005;
 
 std::vector<std::uint64_t> prefix_lengths(std::uint64_t stream_bytes, std::uint64_t vertices) {
   std::vector<std::uint64_t> lengths;
@@ -32,13 +34,6 @@ report::PrefixError measure_surface(const exporter::Surface& surface, std::uint6
           distance.relative_rms(), distance.relative_hausdorff()};
 }
 
-void extend_bounds(const exporter::Surface& surface, PrefixTable& table) {
-  for (const Eigen::Vector3f& p : surface.positions) {
-    table.bounds_min = table.bounds_min.cwiseMin(p);
-    table.bounds_max = table.bounds_max.cwiseMax(p);
-  }
-}
-
 double prefix_error(const decode::StreamFile& stream, std::uint64_t bytes,
                     const PrefixMeasurement& how) {
   decode::PrefixSurface prefix(stream, how.hierarchy);
@@ -51,8 +46,7 @@ double prefix_error(const decode::StreamFile& stream, std::uint64_t bytes,
 
 PrefixTable measure_prefixes(const decode::StreamFile& stream, const PrefixMeasurement& how,
                              const Progress& progress) {
-  constexpr float kFar = std::numeric_limits<float>::max();
-  PrefixTable table{{}, Eigen::Vector3f::Constant(kFar), Eigen::Vector3f::Constant(-kFar)};
+  PrefixTable table;
   decode::PrefixSurface prefix(stream, how.hierarchy);
   const auto lengths = prefix_lengths(stream.bytes.size(), how.original_vertices);
   for (std::size_t i = 0; i < lengths.size(); ++i) {
@@ -60,10 +54,12 @@ PrefixTable measure_prefixes(const decode::StreamFile& stream, const PrefixMeasu
                     static_cast<double>(i) / static_cast<double>(lengths.size()));
     prefix.advance_to(lengths[i]);
     if (!prefix.has_surface()) continue;
-    const exporter::Surface surface = prefix.surface();
-    extend_bounds(surface, table);
-    table.prefixes.push_back(measure_surface(surface, lengths[i], how));
+    table.bounds.extend(prefix.bounds());
+    table.prefixes.push_back(measure_surface(prefix.surface(), lengths[i], how));
   }
+  const auto margin = static_cast<float>(kBoundsMargin * how.diagonal);
+  table.bounds.min().array() -= margin;
+  table.bounds.max().array() += margin;
   return table;
 }
 

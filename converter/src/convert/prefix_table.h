@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "decode/stream_file.h"
 #include "measure/surface_distance.h"
@@ -28,10 +28,11 @@ struct PrefixMeasurement {
   std::shared_ptr<const surface::SubdivisionHierarchy> hierarchy;
 };
 
-/// The table of a stream, and a box around the surfaces of its prefixes.
+/// The table of a stream, and a box around the surfaces of its prefixes: exact for those in the
+/// table, widened by a margin for those between them.
 struct PrefixTable {
   std::vector<report::PrefixError> prefixes;
-  Eigen::Vector3f bounds_min, bounds_max;
+  Eigen::AlignedBox3f bounds;
 };
 
 /// Decodes and measures the prefixes of `stream` of 1/8, 1/4, ... bits per vertex and the whole of
