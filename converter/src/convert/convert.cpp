@@ -104,10 +104,9 @@ decode::StreamFile encode_model(const SurfaceModel& model, double finest_step, b
   return file;
 }
 
-gltf::ProgressiveAsset encode_asset(const SurfaceModel& model, double finest_step,
-                                    const ConvertOptions& options, const PrefixMeasurement& how,
-                                    report::ConvertReport& report, const Progress& progress) {
-  const decode::StreamFile file = encode_model(model, finest_step, false);
+gltf::ProgressiveAsset measure_asset(const SurfaceModel& model, const decode::StreamFile& file,
+                                     const ConvertOptions& options, const PrefixMeasurement& how,
+                                     report::ConvertReport& report, const Progress& progress) {
   const std::vector<Eigen::Vector3f> normals = base_normals(*model.hierarchy, file.base_positions);
   const auto asset_of = [&](const MeasuredStream& payload) {
     return make_asset(payload, model.hierarchy->levels(), how.diagonal, normals,
@@ -136,9 +135,10 @@ void write_outputs(const SurfaceModel& model, double finest_step, const ConvertO
                    report::ConvertReport& report, const Progress& progress) {
   std::optional<CheckedOutput> stream_output, gltf_output;
   if (!options.stream.empty()) {
-    const MeasuredStream stream = clock.run("encode stream", [&] {
-      return cut_and_measure(encode_model(model, finest_step, true), options, options.target_size,
-                             how, progress);
+    decode::StreamFile encoded =
+        clock.run("encode stream", [&] { return encode_model(model, finest_step, true); });
+    const MeasuredStream stream = clock.run("measure stream", [&] {
+      return cut_and_measure(std::move(encoded), options, options.target_size, how, progress);
     });
     report.stream_bytes = stream.file.bytes.size();
     report.stream_prefixes = stream.table.prefixes;
@@ -147,8 +147,10 @@ void write_outputs(const SurfaceModel& model, double finest_step, const ConvertO
     });
   }
   if (!options.glb.empty()) {
-    const gltf::ProgressiveAsset asset = clock.run("encode payload", [&] {
-      return encode_asset(model, finest_step, options, how, report, progress);
+    const decode::StreamFile encoded =
+        clock.run("encode payload", [&] { return encode_model(model, finest_step, false); });
+    const gltf::ProgressiveAsset asset = clock.run("measure payload", [&] {
+      return measure_asset(model, encoded, options, how, report, progress);
     });
     gltf_output.emplace(options.glb, [&](const std::filesystem::path& path) {
       write_gltf(path, asset, options.split);

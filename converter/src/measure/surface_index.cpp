@@ -119,7 +119,7 @@ void SurfaceIndex::Bvh::build() {
 
   rtcCommitGeometry(geometry);
   scene = rtcNewScene(device);
-  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT));
   rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
   rtcJoinCommitScene(scene);
