@@ -16,6 +16,9 @@ if(ZEROTREE_BUILD_CONVERTER)
   find_package(TBB CONFIG REQUIRED)
   find_package(embree 3 CONFIG REQUIRED)
   find_package(draco CONFIG REQUIRED)
+  # Debian's libdraco exports the functions of an older tinygltf with other struct layouts. Whichever
+  # library is linked first gives both their functions, so tinygltf must come before Draco.
+  set_property(TARGET TinyGLTF::TinyGLTF APPEND PROPERTY INTERFACE_LINK_LIBRARIES draco::draco)
   find_package(meshoptimizer CONFIG REQUIRED)
   find_package(ZLIB REQUIRED)
   find_path(STB_INCLUDE_DIR stb/stb_image_write.h REQUIRED)
