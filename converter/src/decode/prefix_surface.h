@@ -9,12 +9,11 @@
 #include "bitstream/stream_decoder.h"
 #include "decode/stream_file.h"
 #include "export/mesh_bytes.h"
-#include "surface/subdivision_hierarchy.h"
-#include "surface/surface_synthesis.h"
+#include "surface/progressive_surface.h"
 
 namespace zerotree::decode {
 
-/// Decodes growing prefixes of one stream. Topology is built once.
+/// Growing prefixes of one stream: the runtime's progressive surface with errors for a person.
 class PrefixSurface {
  public:
   /// Refers to `file`, which must outlive it. `hierarchy`, if given, is that of the stream's base
@@ -26,7 +25,7 @@ class PrefixSurface {
   /// shorter prefix. Throws Error(unreadable_input) if the stream is broken.
   void advance_to(std::uint64_t bytes);
 
-  const bitstream::StreamDecoder& decoder() const { return decoder_; }
+  const bitstream::StreamDecoder& decoder() const { return surface_.decoder(); }
   /// As deep as the decoded details reach, and where the limit surface looks smooth.
   int automatic_level();
   /// The stream holds enough for a surface: an external base always does, an embedded one once its
@@ -42,15 +41,12 @@ class PrefixSurface {
 
  private:
   void require_surface() const;
-  int levels() const;
-  const bitstream::BaseTopology& base() const;
-  const surface::SubdivisionHierarchy& hierarchy_to(int level);
-  surface::Positions control_points(int level);
+  [[noreturn]] void refuse_broken() const;
+  const surface::SubdivisionLevel& topology(int level);
 
   const StreamFile& file_;
-  bitstream::StreamDecoder decoder_;
   std::uint64_t fed_ = 0;
-  std::shared_ptr<const surface::SubdivisionHierarchy> hierarchy_;
+  surface::ProgressiveSurface surface_;
 };
 
 /// The triangles of a surface with positions in double, as distances are measured.

@@ -53,10 +53,12 @@ typedef struct zt_limits {
   int32_t max_levels;
 } zt_limits;
 
-/* What is known so far. Everything but bytes_consumed is 0 until header_ready. */
+/* What is known so far. Of a stream that carries its base, everything but bytes_consumed is 0 until
+ * header_ready; of a stream bound to the caller's base, the base and the levels are known from the
+ * beginning. */
 typedef struct zt_info {
   uint64_t bytes_consumed; /* bytes fed; once done, at most the stream's length */
-  int32_t header_ready;    /* 1: counts and levels are known */
+  int32_t header_ready;    /* 1: the stream's header is read and accepted */
   int32_t base_ready;      /* 1: a surface can be reconstructed */
   int32_t levels;          /* subdivision levels of the stream: 0 .. levels can be asked for */
   int32_t detailed_levels; /* beyond this level the surface so far is only subdivided */
@@ -64,7 +66,7 @@ typedef struct zt_info {
   uint32_t base_triangle_count;
 } zt_info;
 
-/* Limits that suit a desktop: 2^27 vertices, 14 levels, 8 GiB. */
+/* Limits that suit a desktop: 2^27 vertices, 14 levels, 2 GiB. */
 zt_limits zt_default_limits(void);
 
 /* A decoder for a stream that carries its base mesh (a .zt file). `limits` may be null: the
@@ -74,10 +76,13 @@ zt_decoder* zt_create(const zt_limits* limits);
 /* A decoder for a stream bound to the caller's base mesh (the payload of a glTF file). Positions
  * are three floats each, `position_stride` bytes apart (12 if packed; 0 counts as 12); indices are
  * three per triangle. They are copied. Both must be in the order and precision of the file: a
- * stream made for another base is ZT_BROKEN. An index out of range or a mesh that is no surface is
- * ZT_BROKEN too. Returns null when out of memory or when a pointer is null. */
+ * stream made for another base is ZT_BROKEN. `levels` is what the file says of the stream; one with
+ * another number is ZT_BROKEN. The smooth limit surface of the base can be reconstructed before the
+ * first byte; sharp edges and details come with the bytes. An index out of range, a mesh that is no
+ * surface and levels beyond the limits are ZT_BROKEN too, in part only when the surface is first
+ * asked for. Returns null when out of memory or when a pointer is null. */
 zt_decoder* zt_create_for_base(const void* positions, size_t position_stride, uint32_t vertex_count,
-                               const uint32_t* indices, uint32_t triangle_count,
+                               const uint32_t* indices, uint32_t triangle_count, int32_t levels,
                                const zt_limits* limits);
 
 /* Frees the decoder; null is allowed. */
@@ -119,7 +124,8 @@ zt_result zt_get_indices(zt_decoder* decoder, int32_t level, uint32_t* indices,
                          uint32_t triangle_capacity);
 
 /* An axis-aligned box that contains the surface that the bytes so far stand for (its control
- * points, of which it is in the convex hull). Costs as much as zt_reconstruct at detailed_levels. */
+ * points, of which it is in the convex hull). Costs as much as zt_reconstruct at detailed_levels.
+ */
 zt_result zt_get_bounds(zt_decoder* decoder, float low[3], float high[3]);
 
 /* "0.1.0" */

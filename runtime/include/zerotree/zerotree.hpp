@@ -24,12 +24,13 @@ class Decoder {
   explicit Decoder(const zt_limits& limits = zt_default_limits()) : handle_(zt_create(&limits)) {
     if (!handle_) throw std::bad_alloc();
   }
-  /// For a stream bound to this base: x, y, z of each vertex, three indices a triangle.
-  Decoder(std::span<const float> positions, std::span<const std::uint32_t> indices,
+  /// For a stream of `levels` levels bound to this base: x, y, z of each vertex, three indices a
+  /// triangle.
+  Decoder(std::span<const float> positions, std::span<const std::uint32_t> indices, int levels,
           const zt_limits& limits = zt_default_limits())
-      : handle_(zt_create_for_base(positions.data(), 0,
-                                   static_cast<std::uint32_t>(positions.size() / 3), indices.data(),
-                                   static_cast<std::uint32_t>(indices.size() / 3), &limits)) {
+      : handle_(zt_create_for_base(
+            positions.data(), 0, static_cast<std::uint32_t>(positions.size() / 3), indices.data(),
+            static_cast<std::uint32_t>(indices.size() / 3), levels, &limits)) {
     if (!handle_) throw std::bad_alloc();
   }
 

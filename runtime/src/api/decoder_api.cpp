@@ -41,8 +41,7 @@ std::size_t packed_unless(std::size_t stride) {
 }
 
 bool has_level(const zt_decoder& decoder, std::int32_t level) {
-  return decoder.surface.is_ready() && level >= 0 &&
-         level <= decoder.surface.decoder().header().levels;
+  return decoder.surface.is_ready() && level >= 0 && level <= decoder.surface.levels();
 }
 
 /// Whether a request for `level` can be met at all.
@@ -103,13 +102,13 @@ zt_decoder* zt_create(const zt_limits* limits) {
 }
 
 zt_decoder* zt_create_for_base(const void* positions, size_t position_stride, uint32_t vertex_count,
-                               const uint32_t* indices, uint32_t triangle_count,
+                               const uint32_t* indices, uint32_t triangle_count, int32_t levels,
                                const zt_limits* limits) {
   if (!positions || !indices) return nullptr;
   try {
     return new zt_decoder{zerotree::surface::ProgressiveSurface(
-        base_from(vertex_count, indices, triangle_count),
-        gather_positions(positions, packed_unless(position_stride), vertex_count),
+        {base_from(vertex_count, indices, triangle_count),
+         gather_positions(positions, packed_unless(position_stride), vertex_count), levels},
         limits_from(limits))};
   } catch (...) {
     return nullptr;
@@ -156,13 +155,18 @@ void zt_get_info(const zt_decoder* decoder, zt_info* info) {
   if (!decoder) return;
   const auto& stream = decoder->surface.decoder();
   info->bytes_consumed = stream.bytes_consumed();
-  if (!stream.header_ready()) return;
-  info->header_ready = 1;
-  info->base_ready = decoder->surface.is_ready() ? 1 : 0;
-  info->levels = stream.header().levels;
+  if (stream.header_ready()) {
+    info->header_ready = 1;
+    info->levels = stream.header().levels;
+    info->base_vertex_count = stream.header().vertex_count;
+    info->base_triangle_count = stream.header().face_count;
+  }
+  if (!decoder->surface.is_ready()) return;
+  info->base_ready = 1;
+  info->levels = decoder->surface.levels();
   info->detailed_levels = stream.detailed_levels();
-  info->base_vertex_count = stream.header().vertex_count;
-  info->base_triangle_count = stream.header().face_count;
+  info->base_vertex_count = decoder->surface.base().vertex_count;
+  info->base_triangle_count = static_cast<std::uint32_t>(decoder->surface.base().triangles.size());
 }
 
 uint32_t zt_vertex_count(const zt_decoder* decoder, int32_t level) {

@@ -2,7 +2,8 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <utility>
+
+#include "bitstream/base_edges.h"
 
 namespace zerotree::surface {
 
@@ -10,9 +11,32 @@ using bitstream::DecodeStatus;
 
 ProgressiveSurface::ProgressiveSurface(const bitstream::Limits& limits) : decoder_(limits) {}
 
-ProgressiveSurface::ProgressiveSurface(bitstream::BaseTopology base, std::vector<float> positions,
-                                       const bitstream::Limits& limits)
-    : decoder_(std::move(base), std::move(positions), limits) {}
+ProgressiveSurface::ProgressiveSurface(ExternalBase base, const bitstream::Limits& limits)
+    : external_(std::move(base)), decoder_(external_->topology, external_->positions, limits) {
+  external_->topology.crease_edges.clear();
+  external_->topology.corner_vertices.clear();
+  check_external_base(limits);
+}
+
+void ProgressiveSurface::check_external_base(const bitstream::Limits& limits) {
+  const bitstream::BaseEdges numbered = bitstream::number_base_edges(external_->topology);
+  external_edges_ = numbered.edges.size();
+  if (!numbered.error.empty()) return fail(numbered.error);
+  if (external_edges_ == 0) return fail("the base mesh given has no triangle");
+  if (external_->positions.size() != 3 * std::size_t{external_->topology.vertex_count})
+    return fail("the base mesh given has not three coordinates per vertex");
+  if (external_->levels < 0 || external_->levels > limits.max_levels)
+    return fail("the number of levels is beyond the limit");
+  if (external_->topology.vertex_count +
+          std::uint64_t{external_edges_} * bitstream::cells_below(external_->levels) >
+      limits.max_vertices)
+    return fail("the finest level has more vertices than the limit");
+}
+
+void ProgressiveSurface::share(std::shared_ptr<const SubdivisionHierarchy> hierarchy) {
+  shared_ = std::move(hierarchy);
+  hierarchy_ = nullptr;
+}
 
 DecodeStatus ProgressiveSurface::feed(std::span<const std::uint8_t> bytes) {
   if (own_reason_.empty()) {
@@ -23,11 +47,15 @@ DecodeStatus ProgressiveSurface::feed(std::span<const std::uint8_t> bytes) {
 }
 
 void ProgressiveSurface::check_header() {
-  if (decoder_.header_ready() &&
-      decoder_.header().transform !=
-          static_cast<std::uint32_t>(WaveletTransform::loop_quadrature_mirror))
-    own_reason_ = "the stream names wavelet transform " +
-                  std::to_string(decoder_.header().transform) + ", which this version lacks";
+  if (!decoder_.header_ready()) return;
+  const bitstream::StreamHeader& header = decoder_.header();
+  if (header.transform != static_cast<std::uint32_t>(WaveletTransform::loop_quadrature_mirror))
+    fail("the stream names wavelet transform " + std::to_string(header.transform) +
+         ", which this version lacks");
+  else if (external_ && decoder_.status() != DecodeStatus::broken &&
+           header.levels != external_->levels)
+    fail("the stream has " + std::to_string(header.levels) + " levels where " +
+         std::to_string(external_->levels) + " were announced");
 }
 
 DecodeStatus ProgressiveSurface::status() const {
@@ -39,32 +67,54 @@ const std::string& ProgressiveSurface::reason() const {
 }
 
 bool ProgressiveSurface::is_ready() const {
-  return status() != DecodeStatus::broken && decoder_.header_ready() && decoder_.base_ready();
+  return status() != DecodeStatus::broken && (external_ || decoder_.base_ready());
+}
+
+int ProgressiveSurface::levels() const {
+  return external_ ? external_->levels : decoder_.header().levels;
+}
+
+const bitstream::BaseTopology& ProgressiveSurface::base() const {
+  return decoder_.base_ready() ? decoder_.base() : external_->topology;
 }
 
 ProgressiveSurface::Counts ProgressiveSurface::counts(int level) const {
-  Counts counts{decoder_.base().vertex_count, decoder_.base_edges().size(),
-                decoder_.base().triangles.size()};
+  Counts counts{base().vertex_count, external_ ? external_edges_ : decoder_.base_edges().size(),
+                base().triangles.size()};
   for (int number = 0; number < level; ++number)
     counts = {counts.vertices + counts.edges, 2 * counts.edges + 3 * counts.triangles,
               4 * counts.triangles};
   return counts;
 }
 
+bool ProgressiveSurface::suits(const SubdivisionHierarchy* hierarchy, int level) const {
+  return hierarchy && hierarchy->levels() >= level &&
+         hierarchy->base().crease_edges == base().crease_edges &&
+         hierarchy->base().corner_vertices == base().corner_vertices;
+}
+
 const SubdivisionLevel* ProgressiveSurface::topology(int level) {
-  if (!hierarchy_ || hierarchy_->levels() < level) {
-    try {
-      hierarchy_ = std::make_unique<const SubdivisionHierarchy>(
-          decoder_.base(), level, static_cast<WaveletTransform>(decoder_.header().transform));
-    } catch (const std::invalid_argument& error) {
-      own_reason_ = error.what();
-      return nullptr;
+  hierarchy_ = nullptr;
+  if (suits(shared_.get(), level)) {
+    hierarchy_ = shared_.get();
+  } else {
+    if (!suits(own_.get(), level)) {
+      own_.reset();  // before the next one takes its memory
+      try {
+        own_ = std::make_shared<const SubdivisionHierarchy>(
+            base(), level, WaveletTransform::loop_quadrature_mirror);
+      } catch (const std::invalid_argument& error) {
+        fail(error.what());
+        return nullptr;
+      }
     }
+    hierarchy_ = own_.get();
   }
   return &hierarchy_->level(level);
 }
 
 Positions ProgressiveSurface::control_points(int level) const {
+  if (!decoder_.base_ready()) return reconstruct(*hierarchy_, external_->positions, {}, {}, level);
   const bitstream::StreamHeader& header = decoder_.header();
   const Dequantisation dequantisation{static_cast<WaveletTransform>(header.transform),
                                       header.finest_step,
