@@ -91,10 +91,8 @@ std::vector<Eigen::Vector3f> base_normals(const surface::SubdivisionHierarchy& h
 decode::StreamFile encode_model(const SurfaceModel& model, double finest_step, bool embed_base) {
   encode::EncodeOptions options;
   options.finest_step = finest_step;
-  // CAD-like models gain from a coarser tangential step (design, section 4).
-  options.tangent_ratio_log2 = model.base.crease_edges.empty() ? 2 : 3;
   options.embed_base = embed_base;
-  encode::EncodedStream encoded = encode::encode(model.base, model.wavelets, options);
+  encode::EncodedStream encoded = encode::encode(*model.hierarchy, model.wavelets, options);
   decode::StreamFile file;
   file.bytes = std::move(encoded.bytes);
   file.external_base = !embed_base;

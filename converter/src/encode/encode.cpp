@@ -57,12 +57,20 @@ surface::SubdivisionHierarchy hierarchy_of(const bitstream::BaseTopology& base, 
 EncodedStream encode(const bitstream::BaseTopology& base,
                      const analysis::WaveletDecomposition& decomposition,
                      const EncodeOptions& options) {
-  check_options(options);
   const int levels = static_cast<int>(decomposition.details.size());
-  if (base.triangles.empty() || decomposition.base_control_points.size() != base.vertex_count) {
-    throw Error(ExitCode::refused_topology, "the base mesh is empty or lacks positions");
+  return encode(hierarchy_of(base, levels, options.transform), decomposition, options);
+}
+
+EncodedStream encode(const surface::SubdivisionHierarchy& hierarchy,
+                     const analysis::WaveletDecomposition& decomposition,
+                     const EncodeOptions& options) {
+  check_options(options);
+  const bitstream::BaseTopology& base = hierarchy.base();
+  const int levels = hierarchy.levels();
+  if (decomposition.base_control_points.size() != base.vertex_count ||
+      decomposition.details.size() != static_cast<std::size_t>(levels)) {
+    throw Error(ExitCode::refused_topology, "the base mesh lacks positions or levels of details");
   }
-  const surface::SubdivisionHierarchy hierarchy = hierarchy_of(base, levels, options.transform);
 
   StreamContent content;
   content.base = base;

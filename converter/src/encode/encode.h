@@ -8,6 +8,7 @@
 #include "bitstream/base_topology.h"
 #include "bitstream/coefficient_layout.h"
 #include "encode/stream_encoder.h"
+#include "surface/subdivision_hierarchy.h"
 #include "surface/wavelet_transform.h"
 
 namespace zerotree::encode {
@@ -38,10 +39,15 @@ struct EncodedStream {
   std::vector<PassEnd> pass_ends;
 };
 
-/// Quantises and codes. An embedded base must be in canonical order
+/// Quantises and codes a decomposition over `hierarchy`. An embedded base must be in canonical order
 /// (bitstream::canonical_base_order). Deterministic. Throws Error: refused_topology for a base that
 /// cannot be coded, target_not_reachable for a step too small for the format, usage for a step that
 /// is not positive.
+EncodedStream encode(const surface::SubdivisionHierarchy& hierarchy,
+                     const analysis::WaveletDecomposition& decomposition,
+                     const EncodeOptions& options);
+
+/// The same for a base whose hierarchy is not at hand.
 EncodedStream encode(const bitstream::BaseTopology& base,
                      const analysis::WaveletDecomposition& decomposition,
                      const EncodeOptions& options);
