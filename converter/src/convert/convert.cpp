@@ -25,10 +25,10 @@
 namespace zerotree::convert {
 namespace {
 
-// Samples of each surface for the table: the RMS is good to about half a percent.
-constexpr std::size_t kTableSamples = 100'000;
-// The finest step in units of the remeshing error: rounding then adds about a tenth to it.
-constexpr double kStepPerRemeshingError = 0.5;
+// Samples of each surface for the table: the RMS is good to about one percent.
+constexpr std::size_t kTableSamples = 50'000;
+// The finest step in units of the remeshing error: rounding then adds less than that to it.
+constexpr double kStepPerRemeshingError = 1.0;
 // ... but never finer than this part of the diagonal, about what float positions resolve.
 constexpr double kFinestRelativeStep = 1e-7;
 // Most memory a conversion takes per input vertex, in bytes.

@@ -11,8 +11,9 @@
 namespace zerotree::convert {
 namespace {
 
-constexpr double kLowestRate = 1.0 / 8;  // bits per vertex
-// Of the diagonal: prefixes between two of the table may reach a little further than both.
+constexpr double kLowestRate = 1.0 / 4;  // bits per vertex
+// Of the diagonal: prefixes between two of the table, and points of the limit surface between the
+// vertices, may reach a little further.
 constexpr double kBoundsMargin = 0.005;
 
 std::vector<std::uint64_t> prefix_lengths(std::uint64_t stream_bytes, std::uint64_t vertices) {
@@ -54,8 +55,9 @@ PrefixTable measure_prefixes(const decode::StreamFile& stream, const PrefixMeasu
                     static_cast<double>(i) / static_cast<double>(lengths.size()));
     prefix.advance_to(lengths[i]);
     if (!prefix.has_surface()) continue;
-    table.bounds.extend(prefix.bounds());
-    table.prefixes.push_back(measure_surface(prefix.surface(), lengths[i], how));
+    const exporter::Surface surface = prefix.surface();
+    for (const Eigen::Vector3f& p : surface.positions) table.bounds.extend(p);
+    table.prefixes.push_back(measure_surface(surface, lengths[i], how));
   }
   const auto margin = static_cast<float>(kBoundsMargin * how.diagonal);
   table.bounds.min().array() -= margin;

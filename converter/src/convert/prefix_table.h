@@ -28,14 +28,14 @@ struct PrefixMeasurement {
   std::shared_ptr<const surface::SubdivisionHierarchy> hierarchy;
 };
 
-/// The table of a stream, and a box around the surfaces of its prefixes: exact for those in the
-/// table, widened by a margin for those between them.
+/// The table of a stream, and a box around the surfaces of its prefixes: that of the prefixes in
+/// the table, widened by a margin for those between them.
 struct PrefixTable {
   std::vector<report::PrefixError> prefixes;
   Eigen::AlignedBox3f bounds;
 };
 
-/// Decodes and measures the prefixes of `stream` of 1/8, 1/4, ... bits per vertex and the whole of
+/// Decodes and measures the prefixes of `stream` of 1/4, 1/2, 1, ... bits per vertex and the whole of
 /// it. A prefix that ends before the base is known is left out.
 PrefixTable measure_prefixes(const decode::StreamFile& stream, const PrefixMeasurement& how,
                              const Progress& progress);
