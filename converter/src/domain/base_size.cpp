@@ -11,7 +11,7 @@ constexpr std::uint32_t kInputPerBaseVertex = 200;
 constexpr std::uint32_t kInputPerBaseVertexDense = 400;
 constexpr std::uint32_t kEnoughForLimbs = 250;
 // Small meshes need more than their share: this many vertices, but no more than one in 16.
-constexpr std::uint32_t kSmallBase = 60;
+constexpr std::uint32_t kSmallBase = 90;
 constexpr std::uint32_t kInputPerSmallBaseVertex = 16;
 
 std::uint32_t count_components(const TriangleTopology& topology) {
