@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
 
 #include "bitstream/base_edges.h"
 #include "bitstream/coefficient_layout.h"
@@ -37,19 +36,26 @@ TEST_P(EdgeForest, ChildrenAreNumberedByTheirParents) {
       ASSERT_EQ(level.GetVertexChildVertex(vertex), vertex);
     for (int edge = 0; edge < level.GetNumEdges(); ++edge) {
       ASSERT_EQ(level.GetEdgeChildVertex(edge), vertices + edge);
-      for (int half = 0; half < 2; ++half)
-        ASSERT_EQ(level.GetEdgeChildEdges(edge)[half], 3 * faces + 2 * edge + half);
+      for (int half = 0; half < 2; ++half) {
+        const int child_edge = 3 * faces + 2 * edge + half;
+        ASSERT_EQ(level.GetEdgeChildEdges(edge)[half], child_edge);
+        ASSERT_EQ(child.GetEdgeVertices(child_edge)[0], vertices + edge);
+        ASSERT_EQ(child.GetEdgeVertices(child_edge)[1], level.GetEdgeVertices(edge)[half]);
+      }
     }
     for (int face = 0; face < faces; ++face) {
       for (int k = 0; k < 4; ++k) ASSERT_EQ(level.GetFaceChildFaces(face)[k], 4 * face + k);
       for (int k = 0; k < 3; ++k) {
         // Child edge k cuts off corner k; it is parallel to the edge opposite that corner.
         ASSERT_EQ(level.GetFaceChildEdges(face)[k], 3 * face + k);
-        std::set<int> ends, expected;
-        for (const int end : child.GetEdgeVertices(3 * face + k)) ends.insert(end);
-        expected.insert(vertices + level.GetFaceEdges(face)[k]);
-        expected.insert(vertices + level.GetFaceEdges(face)[(k + 2) % 3]);
-        ASSERT_EQ(ends, expected);
+        const auto odd = [&](int local) { return vertices + level.GetFaceEdges(face)[local % 3]; };
+        ASSERT_EQ(child.GetEdgeVertices(3 * face + k)[0], odd(k));
+        ASSERT_EQ(child.GetEdgeVertices(3 * face + k)[1], odd(k + 2));
+        const auto corner_child = child.GetFaceVertices(4 * face + k);
+        ASSERT_EQ(corner_child[k], level.GetFaceVertices(face)[k]);
+        ASSERT_EQ(corner_child[(k + 1) % 3], odd(k));
+        ASSERT_EQ(corner_child[(k + 2) % 3], odd(k + 2));
+        ASSERT_EQ(child.GetFaceVertices(4 * face + 3)[k], odd(k + 1));
       }
     }
   }

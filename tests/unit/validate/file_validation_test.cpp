@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -237,6 +239,21 @@ TEST(Report, HasTheShapeOfGltfValidators) {
   EXPECT_EQ(message["pointer"], std::string(kExtensionPointer) + "/x");
   EXPECT_TRUE(message["message"].is_string());
   EXPECT_EQ(report["info"]["extensionsUsed"], json({gltf::kExtensionName}));
+}
+
+TEST(IssueTable, IsTheListInTheSpecification) {
+  const std::string path = std::string(ZEROTREE_SOURCE_DIR) + "/extension-spec/README.md";
+  std::ifstream in(path);
+  ASSERT_TRUE(in.is_open()) << path;
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const char* const severities[] = {"error", "warning", "information", "hint"};
+  std::string table = "| code | severity | meaning |\n|---|---|---|\n";
+  for (const gltf::IssueText& row : gltf::issue_table())
+    table.append("| `").append(row.id).append("` | ") +=
+        std::string(severities[static_cast<int>(row.severity)]) + " | " + row.text + " |\n";
+  EXPECT_NE(text.find(table + "\n"), std::string::npos)
+      << "the table in extension-spec/README.md, section Validation, must be\n"
+      << table;
 }
 
 TEST(IssueTable, EveryRowIsComplete) {
