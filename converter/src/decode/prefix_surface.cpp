@@ -86,18 +86,6 @@ exporter::Surface PrefixSurface::surface(std::optional<int> asked) {
   return result;
 }
 
-Eigen::AlignedBox3f PrefixSurface::bounds() {
-  require_surface();
-  // No detail lies below the automatic level, so its control points are those of the surface.
-  const int level = automatic_level();
-  topology(level);
-  const surface::Positions control = surface_.control_points(level);
-  Eigen::AlignedBox3f box;
-  for (std::size_t i = 0; i < control.size(); i += 3)
-    box.extend(Eigen::Vector3f(control[i], control[i + 1], control[i + 2]));
-  return box;
-}
-
 TriangleMesh to_triangle_mesh(const exporter::Surface& surface) {
   TriangleMesh mesh;
   mesh.positions.reserve(surface.positions.size());

@@ -1,7 +1,6 @@
 // The surface that a prefix of a stream stands for.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -35,9 +34,6 @@ class PrefixSurface {
   /// empty. Without a header, of an external base, it is the smooth surface of the base. Throws
   /// Error(unreadable_input) unless `has_surface`, and Error(usage) for a level out of range.
   exporter::Surface surface(std::optional<int> level = {});
-  /// A box that the whole limit surface lies in: that of its control points, whose convex hull
-  /// holds it (Loop's weights are not negative). Throws as `surface`.
-  Eigen::AlignedBox3f bounds();
 
  private:
   void require_surface() const;
