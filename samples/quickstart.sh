@@ -9,6 +9,7 @@ say() { printf '\n== %s\n' "$*" >&2; }
 die() { printf 'quickstart: %s\n' "$*" >&2; exit 1; }
 
 scan=
+if [[ ${1:-} == -h || ${1:-} == --help ]]; then sed -n '2,5s/^# //p' "$0"; exit; fi
 if (($# > 1)) || [[ ${1:-} == -* ]]; then die "usage: samples/quickstart.sh [SCAN]"; fi
 if (($# == 1)); then
   [[ -f $1 ]] || die "there is no file '$1'"
@@ -68,6 +69,14 @@ decode_and_measure() {
   mv "$out/prefix_$rate.json.part" "$out/prefix_$rate.json"
 }
 
+# What stands under a prefix in the picture: caption_of RATE BYTES ERROR
+caption_of() {
+  LC_ALL=C awk -v rate="$1" -v bytes="$2" -v error="$3" 'BEGIN {
+    name = rate == 0.25 ? "¼" : rate == 0.5 ? "½" : rate
+    printf "%s bit%s per vertex\\n%d bytes · error %.2g %% of the diagonal",
+           name, (rate > 1 ? "s" : ""), bytes, 100 * error }'
+}
+
 say "Packages"
 samples/install_packages.sh run
 build
@@ -81,7 +90,7 @@ say "Decoding prefixes and measuring them"
 vertices=$(json_number "$out/report.json" input vertices)
 whole=$(stat -c %s "$out/scan.zt")
 meshes=("$scan")
-captions=("$(basename "$scan")\n$vertices vertices")
+captions=("$(basename "$scan")\nthe scan: $vertices vertices")
 printf '%14s  %10s  %14s\n' 'bits per vertex' bytes 'error/diagonal'
 for rate in "${rates[@]}"; do
   bytes=$(awk -v r="$rate" -v v="$vertices" 'BEGIN { printf "%d", r * v / 8 }')
@@ -90,8 +99,7 @@ for rate in "${rates[@]}"; do
   error=$(json_number "$out/prefix_$rate.json" symmetric rms)
   printf '%15s  %10d  %14.2e\n' "$rate" "$bytes" "$error"
   meshes+=("$out/prefix_$rate.ply")
-  captions+=("$(awk -v r="$rate" -v b="$bytes" -v e="$error" \
-    'BEGIN { printf "%s b/v\\n%.1f kB · error %.1e", r, b / 1000, e }')")
+  captions+=("$(caption_of "$rate" "$bytes" "$error")")
 done
 
 say "Drawing them side by side"
