@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -10,11 +11,13 @@ namespace zerotree::domain {
 namespace {
 
 // How edges become creases. A chain starts from edges of the upper angle, goes on over edges of
-// the lower angle and counts only if it is long: scan noise makes sharp edges, but short chains.
+// the lower angle and counts only if it is long and runs smoothly: scan noise makes sharp edges,
+// but its chains are short or a thicket of branches and zigzags.
 struct CreaseRule {
   double upper_cosine;
   double lower_cosine;
   double min_length;        // of the edges of connected chains, relative to the diagonal
+  double min_arc;           // mean length between their ends, junctions and sharp turns, likewise
   double min_strong_share;  // of a chain's edges that reach the upper angle
   double max_neighbour;     // turn of the surface beside the edge, as a share of the edge's own
 };
@@ -26,10 +29,13 @@ constexpr double radians(double degrees) {
 CreaseRule rule_for(double angle_degrees) {
   if (angle_degrees > 0) {
     const double cosine = std::cos(radians(angle_degrees));
-    return {cosine, cosine, 0.0, 0.0, 1e9};
+    return {cosine, cosine, 0.0, 0.0, 0.0, 1e9};
   }
-  return {std::cos(radians(40.0)), std::cos(radians(15.0)), 0.5, 0.6, 0.35};
+  return {std::cos(radians(40.0)), std::cos(radians(15.0)), 0.5, 0.04, 0.6, 0.35};
 }
+
+// Of a turn of 50 degrees.
+constexpr double kSharpTurnCosine = 0.6428;
 
 struct CandidateEdge {
   std::uint32_t face;
@@ -95,22 +101,78 @@ std::vector<CandidateEdge> find_candidates(const TriangleMesh& mesh, const Creas
   return candidates;
 }
 
-// The set of each candidate edge, joined at common vertices.
-ChainSets join_chains(const TriangleTopology& topology,
-                      const std::vector<CandidateEdge>& candidates) {
-  ChainSets sets(candidates.size());
-  std::vector<std::uint32_t> first_at(topology.face_of_vertex.size(), kNone);
+// What connected candidate edges make up together.
+struct ChainSum {
+  std::uint32_t edges = 0;
+  std::uint32_t strong = 0;
+  double length = 0;
+  // Ends of arcs: at the ends and junctions of chains and where they turn sharply.
+  std::uint32_t arc_ends = 0;
+
+  double mean_arc() const { return 2 * length / std::max(arc_ends, 2u); }
+};
+
+// The candidate edges at each vertex, as far as arcs need them.
+struct CandidateFan {
+  std::uint32_t degree = 0;
+  std::uint32_t first = kNone;                            // a candidate edge
+  std::array<std::uint32_t, 2> neighbours{kNone, kNone};  // along the first two
+
+  void add(std::uint32_t candidate, std::uint32_t neighbour) {
+    if (degree == 0) first = candidate;
+    if (degree < 2) neighbours[degree] = neighbour;
+    ++degree;
+  }
+};
+
+std::vector<CandidateFan> gather_fans(const TriangleTopology& topology,
+                                      const std::vector<CandidateEdge>& candidates) {
+  std::vector<CandidateFan> fans(topology.face_of_vertex.size());
   for (std::uint32_t i = 0; i < candidates.size(); ++i) {
     const auto& [face, edge, strong] = candidates[i];
-    for (int end : {edge, kNext[edge]}) {
-      std::uint32_t& first = first_at[topology.faces[face][end]];
-      if (first == kNone)
-        first = i;
-      else
-        sets.join(i, first);
-    }
+    const std::uint32_t a = topology.faces[face][edge], b = topology.faces[face][kNext[edge]];
+    fans[a].add(i, b);
+    fans[b].add(i, a);
+  }
+  return fans;
+}
+
+// The set of each candidate edge, joined at common vertices.
+ChainSets join_chains(const TriangleTopology& topology,
+                      const std::vector<CandidateEdge>& candidates,
+                      const std::vector<CandidateFan>& fans) {
+  ChainSets sets(candidates.size());
+  for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+    const auto& [face, edge, strong] = candidates[i];
+    for (int end : {edge, kNext[edge]}) sets.join(i, fans[topology.faces[face][end]].first);
   }
   return sets;
+}
+
+// How many arcs end in vertex `v`: none if a chain passes through without a turn of 50 degrees.
+std::uint32_t count_arc_ends(const TriangleMesh& mesh, const CandidateFan& fan, std::uint32_t v) {
+  if (fan.degree != 2) return fan.degree;
+  const Eigen::Vector3d in = mesh.positions[v] - mesh.positions[fan.neighbours[0]];
+  const Eigen::Vector3d out = mesh.positions[fan.neighbours[1]] - mesh.positions[v];
+  return in.stableNormalized().dot(out.stableNormalized()) < kSharpTurnCosine ? 2 : 0;
+}
+
+std::vector<ChainSum> sum_chains(const TriangleMesh& mesh, const TriangleTopology& topology,
+                                 const std::vector<CandidateEdge>& candidates,
+                                 const std::vector<CandidateFan>& fans, ChainSets& sets) {
+  std::vector<ChainSum> sums(candidates.size());
+  for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+    const auto& [face, edge, is_strong] = candidates[i];
+    const Triangle& t = topology.faces[face];
+    ChainSum& sum = sums[sets.find(i)];
+    ++sum.edges;
+    sum.strong += is_strong ? 1u : 0u;
+    sum.length += (mesh.positions[t[edge]] - mesh.positions[t[kNext[edge]]]).norm();
+  }
+  for (std::uint32_t v = 0; v < fans.size(); ++v)
+    if (fans[v].degree > 0)
+      sums[sets.find(fans[v].first)].arc_ends += count_arc_ends(mesh, fans[v], v);
+  return sums;
 }
 
 }  // namespace
@@ -120,22 +182,16 @@ std::uint32_t tag_crease_edges(const TriangleMesh& mesh, double crease_angle_deg
   if (crease_angle_degrees >= 180.0) return 0;
   const CreaseRule rule = rule_for(crease_angle_degrees);
   const std::vector<CandidateEdge> candidates = find_candidates(mesh, rule, topology);
-  ChainSets sets = join_chains(topology, candidates);
-  std::vector<std::uint32_t> edges(candidates.size(), 0), strong(candidates.size(), 0);
-  std::vector<double> length(candidates.size(), 0.0);
-  for (std::uint32_t i = 0; i < candidates.size(); ++i) {
-    const auto& [face, edge, is_strong] = candidates[i];
-    const Triangle& t = topology.faces[face];
-    const std::uint32_t set = sets.find(i);
-    ++edges[set];
-    strong[set] += is_strong ? 1u : 0u;
-    length[set] += (mesh.positions[t[edge]] - mesh.positions[t[kNext[edge]]]).norm();
-  }
-  const double min_length = rule.min_length * bounding_box_diagonal(mesh.positions);
+  const std::vector<CandidateFan> fans = gather_fans(topology, candidates);
+  ChainSets sets = join_chains(topology, candidates, fans);
+  const std::vector<ChainSum> sums = sum_chains(mesh, topology, candidates, fans, sets);
+  const double diagonal = bounding_box_diagonal(mesh.positions);
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < candidates.size(); ++i) {
-    const std::uint32_t set = sets.find(i);
-    if (length[set] < min_length || strong[set] < rule.min_strong_share * edges[set]) continue;
+    const ChainSum& sum = sums[sets.find(i)];
+    if (sum.length < rule.min_length * diagonal || sum.mean_arc() < rule.min_arc * diagonal ||
+        sum.strong < rule.min_strong_share * sum.edges)
+      continue;
     const auto& [face, edge, is_strong] = candidates[i];
     const std::uint32_t other = topology.adjacent[face][edge];
     const int back = edge_towards(topology, other, face);

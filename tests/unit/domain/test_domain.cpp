@@ -116,6 +116,22 @@ TEST(Domain, TakesNoNoiseForCreases) {
   EXPECT_GT(build_domain(noisy, sharp, {}).report.crease_edges, 100u);
 }
 
+// Sharp all along, but with a corner every 1/80 of the diagonal: a base that kept them all would be
+// as large as the mesh.
+TEST(Domain, TakesNoThicketOfShortEdgesForCreases) {
+  std::vector<std::array<int, 3>> stairs;
+  for (int i = 0; i < 60; ++i) {
+    stairs.push_back({i, i, 0});
+    stairs.push_back({i + 1, i, 0});
+  }
+  const TriangleMesh mesh = test::midpoint_subdivide(test::voxel_surface(stairs), 1);
+  const Domain domain = build_domain(mesh, {}, {});
+  EXPECT_EQ(domain.report.crease_edges, 0u);
+  DomainOptions all;
+  all.crease_angle_degrees = 40;
+  EXPECT_GT(build_domain(mesh, all, {}).report.crease_edges, 1000u);
+}
+
 TEST(Domain, KeepsPinnedVertices) {
   DomainOptions options;
   options.base_vertices = 12;
