@@ -73,7 +73,7 @@ decode_and_measure() {
 caption_of() {
   LC_ALL=C awk -v rate="$1" -v bytes="$2" -v error="$3" 'BEGIN {
     name = rate == 0.25 ? "¼" : rate == 0.5 ? "½" : rate
-    printf "%s bit%s per vertex\\n%d bytes · error %.2g %% of the diagonal",
+    printf "%s bit%s per vertex\\n%d bytes · error %.2g %% of diagonal",
            name, (rate > 1 ? "s" : ""), bytes, 100 * error }'
 }
 
