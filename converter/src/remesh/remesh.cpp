@@ -23,6 +23,8 @@ constexpr std::uint32_t kMaxRebuilds = 300;
 constexpr std::uint32_t kPatience = 16;
 constexpr std::uint32_t kBackSteps = 8;
 constexpr double kFacesPerInputFace = 2.25;
+// A mesh of few faces has larger angles than the smooth limit surface of so few points can follow.
+constexpr double kLeastFaces = 2000;
 constexpr int kMaxLevels = 12;
 constexpr std::uint64_t kMaxVertices = std::uint64_t{1} << 30;
 // Rounding in the sum of a base triangle's covered area.
@@ -30,10 +32,10 @@ constexpr double kCoverageTolerance = 1e-9;
 
 int automatic_levels(const bitstream::BaseTopology& base, std::size_t input_faces) {
   int levels = 1;
+  const double wanted =
+      std::max(kFacesPerInputFace * static_cast<double>(input_faces), kLeastFaces);
   double faces = 4.0 * static_cast<double>(base.triangles.size());
-  for (; faces < kFacesPerInputFace * static_cast<double>(input_faces) && levels < kMaxLevels;
-       ++levels)
-    faces *= 4;
+  for (; faces < wanted && levels < kMaxLevels; ++levels) faces *= 4;
   return levels;
 }
 
