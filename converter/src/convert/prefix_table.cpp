@@ -35,6 +35,10 @@ report::PrefixError measure_surface(const exporter::Surface& surface, std::uint6
           distance.relative_rms(), distance.relative_hausdorff()};
 }
 
+void extend(Eigen::AlignedBox3f& box, const exporter::Surface& surface) {
+  for (const Eigen::Vector3f& p : surface.positions) box.extend(p);
+}
+
 double prefix_error(const decode::StreamFile& stream, std::uint64_t bytes,
                     const PrefixMeasurement& how) {
   decode::PrefixSurface prefix(stream, how.hierarchy);
@@ -49,6 +53,8 @@ PrefixTable measure_prefixes(const decode::StreamFile& stream, const PrefixMeasu
                              const Progress& progress) {
   PrefixTable table;
   decode::PrefixSurface prefix(stream, how.hierarchy);
+  // An external base has a surface before the first byte.
+  if (prefix.has_surface()) extend(table.bounds, prefix.surface());
   const auto lengths = prefix_lengths(stream.bytes.size(), how.original_vertices);
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     report_progress(progress, "measuring prefixes",
@@ -56,7 +62,7 @@ PrefixTable measure_prefixes(const decode::StreamFile& stream, const PrefixMeasu
     prefix.advance_to(lengths[i]);
     if (!prefix.has_surface()) continue;
     const exporter::Surface surface = prefix.surface();
-    for (const Eigen::Vector3f& p : surface.positions) table.bounds.extend(p);
+    extend(table.bounds, surface);
     table.prefixes.push_back(measure_surface(surface, lengths[i], how));
   }
   const auto margin = static_cast<float>(kBoundsMargin * how.diagonal);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 namespace zerotree::test {
@@ -12,8 +13,14 @@ namespace {
 
 std::string quoted(const std::string& text) {
   std::string result = "'";
-  for (char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
+  for (char c : text) {
+    if (c == '\'')
+      result.append("'\\''");
+    else
+      result.push_back(c);
+  }
+  result.push_back('\'');
+  return result;
 }
 
 std::string read_text(const std::filesystem::path& path) {
@@ -25,10 +32,11 @@ std::string read_text(const std::filesystem::path& path) {
 
 CommandResult run_zerotree(const std::vector<std::string>& arguments, int seconds) {
   const TemporaryFolder folder;
-  std::string line = "timeout " + std::to_string(seconds) + " " + quoted(ZEROTREE_COMMAND);
-  for (const std::string& argument : arguments) line += " " + quoted(argument);
-  line += " > " + quoted(folder / "out") + " 2> " + quoted(folder / "err");
-  const int status = std::system(line.c_str());
+  std::ostringstream line;
+  line << "timeout " << seconds << ' ' << quoted(ZEROTREE_COMMAND);
+  for (const std::string& argument : arguments) line << ' ' << quoted(argument);
+  line << " > " << quoted(folder / "out") << " 2> " << quoted(folder / "err");
+  const int status = std::system(line.str().c_str());
   CommandResult result;
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   result.out = read_text(folder / "out");

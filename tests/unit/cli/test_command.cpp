@@ -27,6 +27,35 @@ std::size_t files_in(const std::filesystem::path& folder) {
                                                 std::filesystem::directory_iterator()));
 }
 
+// A glTF file of `mesh` with its numbers in a file beside it, and with what tools leave in one: a
+// material, a texture, a camera.
+void write_furnished_gltf(const TemporaryFolder& folder, const TriangleMesh& mesh) {
+  std::ofstream numbers(folder / "numbers.bin", std::ios::binary);
+  const auto put = [&](auto value) {
+    numbers.write(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  for (const Eigen::Vector3d& p : mesh.positions)
+    for (int k = 0; k < 3; ++k) put(static_cast<float>(p[k]));
+  for (const Triangle& t : mesh.triangles)
+    for (std::uint32_t v : t) put(v);
+  const std::size_t positions = mesh.positions.size(), indices = 3 * mesh.triangles.size();
+  using nlohmann::json;
+  json gltf = json::parse(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"children": [1, 2]}, {"mesh": 0}, {"camera": 0}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.6, "znear": 1}}],
+    "materials": [{"name": "skin", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+    "textures": [{"source": 0}], "images": [{"uri": "missing.png"}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}]})");
+  gltf["buffers"] = {{{"uri", "numbers.bin"}, {"byteLength", 12 * positions + 4 * indices}}};
+  gltf["bufferViews"] = {
+      {{"buffer", 0}, {"byteLength", 12 * positions}},
+      {{"buffer", 0}, {"byteOffset", 12 * positions}, {"byteLength", 4 * indices}}};
+  gltf["accessors"] = {
+      {{"bufferView", 0}, {"componentType", 5126}, {"count", positions}, {"type", "VEC3"}},
+      {{"bufferView", 1}, {"componentType", 5125}, {"count", indices}, {"type", "SCALAR"}}};
+  std::ofstream(folder / "in.gltf") << gltf;
+}
+
 TEST(Command, ConvertsAndDecodesEveryOutput) {
   const TemporaryFolder folder;
   write_off(folder / "in.off", bumpy_sphere());
@@ -172,6 +201,21 @@ TEST(Command, RefusesWithTheRightCodeASentenceAndNoOutput) {
   EXPECT_EQ(run_zerotree({"frobnicate"}).exit_code, 2);
   EXPECT_EQ(run_zerotree({"--help"}).exit_code, 0);
   EXPECT_EQ(run_zerotree({"validate", folder / "missing.glb"}).exit_code, 2);
+}
+
+// The command links two libraries that know glTF; a part of the one must not serve the other.
+TEST(Command, ReadsAGltfWithMaterialsAndCameras) {
+  const TemporaryFolder folder;
+  const TriangleMesh mesh = bumpy_sphere();
+  write_furnished_gltf(folder, mesh);
+  write_off(folder / "same.off", mesh);
+  const CommandResult converted = run_zerotree(
+      {"convert", folder / "in.gltf", "--stream", folder / "x.zt", "--report", folder / "r.json"});
+  ASSERT_EQ(converted.exit_code, 0) << converted.err;
+  for (const std::string lost : {"Cameras", "Materials", "Textures"})
+    EXPECT_NE(converted.out.find(lost + " are not carried"), std::string::npos) << converted.out;
+  ASSERT_EQ(run_zerotree({"decode", folder / "x.zt", "-o", folder / "a.ply"}).exit_code, 0);
+  EXPECT_LT(compared_error(folder / "same.off", folder / "a.ply"), 5e-4);
 }
 
 TEST(Command, NeverTouchesTheInput) {
