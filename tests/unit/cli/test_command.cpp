@@ -44,7 +44,8 @@ void write_furnished_gltf(const TemporaryFolder& folder, const TriangleMesh& mes
     "nodes": [{"children": [1, 2]}, {"mesh": 0}, {"camera": 0}],
     "cameras": [{"type": "perspective", "perspective": {"yfov": 0.6, "znear": 1}}],
     "materials": [{"name": "skin", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
-    "textures": [{"source": 0}], "images": [{"uri": "missing.png"}],
+    "textures": [{"source": 0, "sampler": 0}], "images": [{"uri": "missing.png"}],
+    "samplers": [{"magFilter": 9729, "minFilter": 9986, "wrapS": 10497, "wrapT": 10497}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}]})");
   gltf["buffers"] = {{{"uri", "numbers.bin"}, {"byteLength", 12 * positions + 4 * indices}}};
   gltf["bufferViews"] = {
@@ -53,6 +54,8 @@ void write_furnished_gltf(const TemporaryFolder& folder, const TriangleMesh& mes
   gltf["accessors"] = {
       {{"bufferView", 0}, {"componentType", 5126}, {"count", positions}, {"type", "VEC3"}},
       {{"bufferView", 1}, {"componentType", 5125}, {"count", indices}, {"type", "SCALAR"}}};
+  gltf["accessors"][0]["min"] = {-2, -2, -2};
+  gltf["accessors"][0]["max"] = {2, 2, 2};
   std::ofstream(folder / "in.gltf") << gltf;
 }
 
