@@ -31,6 +31,11 @@ constexpr std::size_t kTableSamples = 50'000;
 constexpr double kStepPerRemeshingError = 1.0;
 // ... but never finer than this part of the diagonal, about what float positions resolve.
 constexpr double kFinestRelativeStep = 1e-7;
+// A remesh farther from the input than this part of the input's mean edge has lost something, as a
+// rule a limb that got no base vertex: it is done again with more of them, this often at most.
+constexpr double kTolerableEdgeShare = 0.05;
+constexpr int kMostBaseEnlargements = 3;
+constexpr double kBaseEnlargement = 1.5;
 // Most memory a conversion takes per input vertex, in bytes.
 constexpr std::uint64_t kMemoryPerVertex = 2500;
 
@@ -64,6 +69,16 @@ void note_input(const ConvertOptions& options, const importer::ImportedMesh& imp
   report.not_carried = imported.not_carried;
 }
 
+PrefixMeasurement measurement_of(const measure::SurfaceIndex& original, const SurfaceModel& model,
+                                 const ConvertOptions& options,
+                                 const report::ConvertReport& report) {
+  return {original,
+          {kTableSamples, options.threads},
+          report.input_vertices,
+          report.diagonal,
+          model.hierarchy};
+}
+
 // Distance between the input and the limit surface of the control points before quantisation.
 double remeshing_error(const SurfaceModel& model, const PrefixMeasurement& how) {
   surface::Positions points;
@@ -77,6 +92,38 @@ double remeshing_error(const SurfaceModel& model, const PrefixMeasurement& how) 
   surface::limit_surface(finest, points, {limit.positions.data(), sizeof(Eigen::Vector3f)}, {});
   return measure::compare_surfaces(how.original, decode::to_triangle_mesh(limit), how.distance)
       .relative_rms();
+}
+
+double mean_edge_length(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k)
+      sum += (mesh.positions[t[k]] - mesh.positions[t[(k + 1) % 3]]).norm();
+  return sum / (3 * static_cast<double>(mesh.triangles.size()));
+}
+
+struct ModelAndError {
+  SurfaceModel model;
+  double remeshing_error;
+};
+
+// Builds the model; with a base of automatic size, a larger one if the remesh lost something.
+ModelAndError build_faithful_model(const measure::SurfaceIndex& original, ConvertOptions options,
+                                   report::StageClock& clock, report::ConvertReport& report,
+                                   const Progress& progress) {
+  const double tolerable =
+      kTolerableEdgeShare * mean_edge_length(original.mesh()) / report.diagonal;
+  const bool is_automatic = options.base_vertices == 0;
+  for (int enlargements = 0;; ++enlargements) {
+    SurfaceModel model = build_surface_model(original.mesh(), options, clock, report, progress);
+    const PrefixMeasurement how = measurement_of(original, model, options, report);
+    const double error = clock.run("measure remesh", [&] { return remeshing_error(model, how); });
+    if (error <= tolerable || !is_automatic || enlargements == kMostBaseEnlargements)
+      return {std::move(model), error};
+    options.base_vertices =
+        static_cast<int>(kBaseEnlargement * static_cast<double>(model.base.vertex_count));
+    ++report.base_enlargements;
+  }
 }
 
 // Limit normals of the base: what an unaware viewer shades the base with.
@@ -174,18 +221,15 @@ report::ConvertReport convert_file(const ConvertOptions& asked, const Progress& 
   note_input(options, imported, report);
   check_memory(options, report.input_vertices);
 
-  const SurfaceModel model = name_input_in_errors(options.input, [&] {
-    return build_surface_model(imported.mesh, options, clock, report, progress);
+  const measure::SurfaceIndex original = name_input_in_errors(options.input, [&] {
+    return clock.run("index",
+                     [&] { return measure::SurfaceIndex(imported.mesh, options.threads); });
   });
-
-  const measure::SurfaceIndex original =
-      clock.run("index", [&] { return measure::SurfaceIndex(imported.mesh, options.threads); });
-  const PrefixMeasurement how{original,
-                              {kTableSamples, options.threads},
-                              report.input_vertices,
-                              report.diagonal,
-                              model.hierarchy};
-  report.remeshing_error = clock.run("measure remesh", [&] { return remeshing_error(model, how); });
+  const auto [model, remesh_error] = name_input_in_errors(options.input, [&] {
+    return build_faithful_model(original, options, clock, report, progress);
+  });
+  report.remeshing_error = remesh_error;
+  const PrefixMeasurement how = measurement_of(original, model, options, report);
   const double finest_step =
       report.diagonal *
       std::max(kStepPerRemeshingError * report.remeshing_error, kFinestRelativeStep);

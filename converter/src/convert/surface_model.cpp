@@ -14,6 +14,7 @@ namespace {
 constexpr auto kTransform = surface::WaveletTransform::loop_quadrature_mirror;
 
 void note_clean(const clean::CleanMesh& cleaned, report::ConvertReport& report) {
+  report.repairs.clear();
   for (const auto& [what, count] : clean::list_repairs(cleaned.report))
     report.repairs.push_back({what, count});
   report.clean_vertices = cleaned.mesh.positions.size();

@@ -79,7 +79,8 @@ std::uint32_t automatic_base_size(std::uint32_t vertices, const DomainReport& re
   const std::uint32_t by_density =
       std::min(vertices / kInputPerBaseVertex,
                std::max(kEnoughForLimbs, vertices / kInputPerBaseVertexDense));
-  return std::min(vertices, std::max({by_density, needed, small}));
+  // Features take their base vertices away from the surface between them.
+  return std::min(vertices, std::max({by_density + std::min(by_density, needed), needed, small}));
 }
 
 }  // namespace zerotree::domain

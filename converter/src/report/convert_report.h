@@ -55,6 +55,8 @@ struct ConvertReport {
   int levels = 0;
   std::uint64_t finest_vertices = 0;
   std::uint64_t cone_swaps = 0;
+  /// How often the automatic base was made larger because the remesh had lost something.
+  int base_enlargements = 0;
   /// Symmetric RMS distance of the surface with every detail unquantised, relative.
   double remeshing_error = 0;
 
