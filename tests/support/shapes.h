@@ -1,7 +1,9 @@
 // Meshes of every class the stages must handle, made in code.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +19,9 @@ struct Shape {
   std::vector<std::array<std::uint32_t, 2>> crease_edges;
   std::vector<std::uint32_t> corner_vertices;
 };
+
+/// How a test's report names a shape.
+inline void PrintTo(const Shape& shape, std::ostream* out) { *out << shape.name; }
 
 TriangleMesh tetrahedron();
 TriangleMesh octahedron();

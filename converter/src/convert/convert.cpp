@@ -33,8 +33,8 @@ constexpr double kStepPerRemeshingError = 1.0;
 constexpr double kFinestRelativeStep = 1e-7;
 // A remesh farther from the input than this part of the input's mean edge has lost something, as a
 // rule a limb that got no base vertex: it is done again with more of them, this often at most.
-constexpr double kTolerableEdgeShare = 0.05;
-constexpr int kMostBaseEnlargements = 3;
+constexpr double kTolerableEdgeShare = 0.02;
+constexpr int kMostBaseEnlargements = 2;
 constexpr double kBaseEnlargement = 1.5;
 // Most memory a conversion takes per input vertex, in bytes.
 constexpr std::uint64_t kMemoryPerVertex = 2500;
@@ -108,14 +108,13 @@ struct ModelAndError {
 };
 
 // Builds the model; with a base of automatic size, a larger one if the remesh lost something.
-ModelAndError build_faithful_model(const measure::SurfaceIndex& original, ConvertOptions options,
-                                   report::StageClock& clock, report::ConvertReport& report,
-                                   const Progress& progress) {
-  const double tolerable =
-      kTolerableEdgeShare * mean_edge_length(original.mesh()) / report.diagonal;
+ModelAndError build_faithful_model(const TriangleMesh& mesh, const measure::SurfaceIndex& original,
+                                   ConvertOptions options, report::StageClock& clock,
+                                   report::ConvertReport& report, const Progress& progress) {
+  const double tolerable = kTolerableEdgeShare * mean_edge_length(mesh) / report.diagonal;
   const bool is_automatic = options.base_vertices == 0;
   for (int enlargements = 0;; ++enlargements) {
-    SurfaceModel model = build_surface_model(original.mesh(), options, clock, report, progress);
+    SurfaceModel model = build_surface_model(mesh, options, clock, report, progress);
     const PrefixMeasurement how = measurement_of(original, model, options, report);
     const double error = clock.run("measure remesh", [&] { return remeshing_error(model, how); });
     if (error <= tolerable || !is_automatic || enlargements == kMostBaseEnlargements)
@@ -135,11 +134,13 @@ std::vector<Eigen::Vector3f> base_normals(const surface::SubdivisionHierarchy& h
   return normals;
 }
 
-decode::StreamFile encode_model(const SurfaceModel& model, double finest_step, bool embed_base) {
+decode::StreamFile encode_model(const SurfaceModel& model,
+                                const analysis::WaveletDecomposition& wavelets, double finest_step,
+                                bool embed_base) {
   encode::EncodeOptions options;
   options.finest_step = finest_step;
   options.embed_base = embed_base;
-  encode::EncodedStream encoded = encode::encode(*model.hierarchy, model.wavelets, options);
+  encode::EncodedStream encoded = encode::encode(*model.hierarchy, wavelets, options);
   decode::StreamFile file;
   file.bytes = std::move(encoded.bytes);
   file.external_base = !embed_base;
@@ -175,13 +176,14 @@ void write_gltf(const std::filesystem::path& path, const gltf::ProgressiveAsset&
 }
 
 // Encodes, measures and writes both outputs. All files are made and checked before one appears.
-void write_outputs(const SurfaceModel& model, double finest_step, const ConvertOptions& options,
-                   const PrefixMeasurement& how, report::StageClock& clock,
-                   report::ConvertReport& report, const Progress& progress) {
+void write_outputs(const SurfaceModel& model, const analysis::WaveletDecomposition& wavelets,
+                   double finest_step, const ConvertOptions& options, const PrefixMeasurement& how,
+                   report::StageClock& clock, report::ConvertReport& report,
+                   const Progress& progress) {
   std::optional<CheckedOutput> stream_output, gltf_output;
   if (!options.stream.empty()) {
-    decode::StreamFile encoded =
-        clock.run("encode stream", [&] { return encode_model(model, finest_step, true); });
+    decode::StreamFile encoded = clock.run(
+        "encode stream", [&] { return encode_model(model, wavelets, finest_step, true); });
     const MeasuredStream stream = clock.run("measure stream", [&] {
       return cut_and_measure(std::move(encoded), options, options.target_size, how, progress);
     });
@@ -192,8 +194,8 @@ void write_outputs(const SurfaceModel& model, double finest_step, const ConvertO
     });
   }
   if (!options.glb.empty()) {
-    const decode::StreamFile encoded =
-        clock.run("encode payload", [&] { return encode_model(model, finest_step, false); });
+    const decode::StreamFile encoded = clock.run(
+        "encode payload", [&] { return encode_model(model, wavelets, finest_step, false); });
     const gltf::ProgressiveAsset asset = clock.run("measure payload", [&] {
       return measure_asset(model, encoded, options, how, report, progress);
     });
@@ -226,15 +228,17 @@ report::ConvertReport convert_file(const ConvertOptions& asked, const Progress& 
                      [&] { return measure::SurfaceIndex(imported.mesh, options.threads); });
   });
   const auto [model, remesh_error] = name_input_in_errors(options.input, [&] {
-    return build_faithful_model(original, options, clock, report, progress);
+    const TriangleMesh cleaned = clean_input(imported.mesh, clock, report, progress);
+    return build_faithful_model(cleaned, original, options, clock, report, progress);
   });
   report.remeshing_error = remesh_error;
   const PrefixMeasurement how = measurement_of(original, model, options, report);
+  const analysis::WaveletDecomposition wavelets = analyse_model(model, options, clock, progress);
   const double finest_step =
       report.diagonal *
       std::max(kStepPerRemeshingError * report.remeshing_error, kFinestRelativeStep);
 
-  write_outputs(model, finest_step, options, how, clock, report, progress);
+  write_outputs(model, wavelets, finest_step, options, how, clock, report, progress);
   if (!options.glb.empty()) report.file_bytes = std::filesystem::file_size(options.glb);
   report.stages = clock.costs();
   return report;

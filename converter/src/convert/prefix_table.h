@@ -35,8 +35,8 @@ struct PrefixTable {
   Eigen::AlignedBox3f bounds;
 };
 
-/// Decodes and measures the prefixes of `stream` of 1/4, 1/2, 1, ... bits per vertex and the whole of
-/// it. A prefix that ends before the base is known is left out.
+/// Decodes and measures the prefixes of `stream` of 1/4, 1/2, 1, ... bits per vertex and the whole
+/// of it. A prefix that ends before the base is known is left out.
 PrefixTable measure_prefixes(const decode::StreamFile& stream, const PrefixMeasurement& how,
                              const Progress& progress);
 

@@ -14,7 +14,6 @@ namespace {
 constexpr auto kTransform = surface::WaveletTransform::loop_quadrature_mirror;
 
 void note_clean(const clean::CleanMesh& cleaned, report::ConvertReport& report) {
-  report.repairs.clear();
   for (const auto& [what, count] : clean::list_repairs(cleaned.report))
     report.repairs.push_back({what, count});
   report.clean_vertices = cleaned.mesh.positions.size();
@@ -36,18 +35,22 @@ void note_remesh(const remesh::RemeshResult& remeshed, report::ConvertReport& re
 
 }  // namespace
 
+TriangleMesh clean_input(const TriangleMesh& mesh, report::StageClock& clock,
+                         report::ConvertReport& report, const Progress& progress) {
+  clean::CleanMesh cleaned =
+      clock.run("clean", [&] { return clean::clean_mesh(mesh, {}, progress); });
+  note_clean(cleaned, report);
+  return std::move(cleaned.mesh);
+}
+
 SurfaceModel build_surface_model(const TriangleMesh& mesh, const ConvertOptions& options,
                                  report::StageClock& clock, report::ConvertReport& report,
                                  const Progress& progress) {
-  const clean::CleanMesh cleaned =
-      clock.run("clean", [&] { return clean::clean_mesh(mesh, {}, progress); });
-  note_clean(cleaned, report);
-
   domain::DomainOptions domain_options;
   domain_options.base_vertices = static_cast<std::uint32_t>(options.base_vertices);
   domain_options.crease_angle_degrees = options.crease_angle_degrees;
-  const domain::Domain domain = clock.run(
-      "domain", [&] { return domain::build_domain(cleaned.mesh, domain_options, progress); });
+  const domain::Domain domain =
+      clock.run("domain", [&] { return domain::build_domain(mesh, domain_options, progress); });
 
   remesh::RemeshOptions remesh_options;
   remesh_options.levels = options.levels;
@@ -64,13 +67,18 @@ SurfaceModel build_surface_model(const TriangleMesh& mesh, const ConvertOptions&
   model.control_points = clock.run("fit", [&] {
     return fit::control_points_from_samples(*model.hierarchy, remeshed.mesh.positions, {});
   });
+  return model;
+}
+
+analysis::WaveletDecomposition analyse_model(const SurfaceModel& model,
+                                             const ConvertOptions& options,
+                                             report::StageClock& clock, const Progress& progress) {
   analysis::AnalysisOptions analysis_options;
   analysis_options.transform = kTransform;
   analysis_options.threads = options.threads;
-  model.wavelets = clock.run("analysis", [&] {
+  return clock.run("analysis", [&] {
     return analysis::analyse(*model.hierarchy, model.control_points, analysis_options, progress);
   });
-  return model;
 }
 
 }  // namespace zerotree::convert

@@ -22,12 +22,20 @@ struct SurfaceModel {
   std::shared_ptr<const surface::SubdivisionHierarchy> hierarchy;
   /// Of the finest level, before quantisation.
   std::vector<Eigen::Vector3d> control_points;
-  analysis::WaveletDecomposition wavelets;
 };
 
-/// Runs the stages on `mesh` and notes in `report` what they found and did.
+/// Repairs `mesh` and notes in `report` what was found and done.
+TriangleMesh clean_input(const TriangleMesh& mesh, report::StageClock& clock,
+                         report::ConvertReport& report, const Progress& progress);
+
+/// Domain, remesh and fit of the clean `mesh`, noted in `report`.
 SurfaceModel build_surface_model(const TriangleMesh& mesh, const ConvertOptions& options,
                                  report::StageClock& clock, report::ConvertReport& report,
                                  const Progress& progress);
+
+/// The wavelets of the model's control points.
+analysis::WaveletDecomposition analyse_model(const SurfaceModel& model,
+                                             const ConvertOptions& options,
+                                             report::StageClock& clock, const Progress& progress);
 
 }  // namespace zerotree::convert
