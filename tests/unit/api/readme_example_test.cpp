@@ -45,7 +45,8 @@ void draw(const float* positions, const float* normals, uint32_t vertices, const
 zt_status draw_sample(const Sample& sample, const std::vector<std::uint8_t>& payload, int levels) {
   drawing() = {};
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), &std::fclose);
-  std::fwrite(payload.data(), 1, payload.size(), file.get());
+  // An empty vector may have no data to point to.
+  if (!payload.empty()) std::fwrite(payload.data(), 1, payload.size(), file.get());
   std::rewind(file.get());
   const std::vector<std::uint32_t> indices = flat_indices(sample.base);
   return draw_while_loading(sample.stream.base_positions.data(), sample.base.vertex_count,
