@@ -12,7 +12,7 @@ namespace zerotree::test {
 namespace {
 
 TriangleMesh bumpy_sphere() {
-  return add_bumps(sphere(4), 0.02, 6);
+  return add_bumps(sphere(3), 0.02, 4);
 }
 
 double compared_error(const std::string& reference, const std::string& test) {
@@ -87,8 +87,8 @@ TEST(Command, ReportTellsWhatTheFilesHold) {
             0);
   const auto text = read_bytes(folder / "report.json");
   const nlohmann::json report = nlohmann::json::parse(text.begin(), text.end());
-  EXPECT_EQ(report["input"]["vertices"], 2562);
-  EXPECT_EQ(report["input"]["faces"], 5120);
+  EXPECT_EQ(report["input"]["vertices"], 642);
+  EXPECT_EQ(report["input"]["faces"], 1280);
   EXPECT_EQ(report["stream"]["bytes"], std::filesystem::file_size(folder / "out.zt"));
   EXPECT_EQ(report["file"]["bytes"], std::filesystem::file_size(folder / "out.glb"));
   const nlohmann::json last = report["stream"]["prefixes"].back();
