@@ -9,7 +9,6 @@ set_target_properties(zerotree_opensubdiv PROPERTIES
 
 if(ZEROTREE_BUILD_CONVERTER)
   find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-  find_package(OpenMesh CONFIG REQUIRED)
   find_package(TinyGLTF CONFIG REQUIRED)
   find_package(nlohmann_json REQUIRED)
   find_package(CLI11 REQUIRED)
@@ -26,4 +25,5 @@ if(ZEROTREE_BUILD_CONVERTER)
 endif()
 if(ZEROTREE_BUILD_TESTS)
   find_package(GTest REQUIRED)
+  find_package(OpenMesh CONFIG REQUIRED)
 endif()
