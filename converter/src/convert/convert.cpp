@@ -36,8 +36,8 @@ constexpr double kFinestRelativeStep = 1e-7;
 constexpr double kTolerableEdgeShare = 0.02;
 constexpr int kMostBaseEnlargements = 2;
 constexpr double kBaseEnlargement = 1.5;
-// Most memory a conversion takes per input vertex, in bytes.
-constexpr std::uint64_t kMemoryPerVertex = 2500;
+// Most memory a conversion takes per input vertex, in bytes; from 100,000 vertices on it is half.
+constexpr std::uint64_t kMemoryPerVertex = 5000;
 
 void check_memory(const ConvertOptions& options, std::uint64_t vertices) {
   const std::uint64_t needed = vertices * kMemoryPerVertex;
