@@ -11,14 +11,15 @@
 namespace zerotree::convert {
 namespace {
 
-constexpr double kLowestRate = 1.0 / 4;  // bits per vertex
+// Bits per vertex, doubling from one to the other.
+constexpr double kLowestRate = 1.0 / 4, kHighestRate = 8;
 // Of the diagonal: prefixes between two of the table, and points of the limit surface between the
 // vertices, may reach a little further.
 constexpr double kBoundsMargin = 0.005;
 
 std::vector<std::uint64_t> prefix_lengths(std::uint64_t stream_bytes, std::uint64_t vertices) {
   std::vector<std::uint64_t> lengths;
-  for (double rate = kLowestRate;; rate *= 2) {
+  for (double rate = kLowestRate; rate <= kHighestRate; rate *= 2) {
     const auto bytes = static_cast<std::uint64_t>(rate * static_cast<double>(vertices) / 8);
     if (bytes >= stream_bytes) break;
     if (bytes > 0 && (lengths.empty() || bytes > lengths.back())) lengths.push_back(bytes);

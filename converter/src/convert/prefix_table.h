@@ -35,7 +35,7 @@ struct PrefixTable {
   Eigen::AlignedBox3f bounds;
 };
 
-/// Decodes and measures the prefixes of `stream` of 1/4, 1/2, 1, ... bits per vertex and the whole
+/// Decodes and measures the prefixes of `stream` of 1/4, 1/2, ... 8 bits per vertex and the whole
 /// of it. A prefix that ends before the base is known is left out.
 PrefixTable measure_prefixes(const decode::StreamFile& stream, const PrefixMeasurement& how,
                              const Progress& progress);
