@@ -38,8 +38,6 @@ void print_summary(const ConvertArguments& arguments, const report::ConvertRepor
 
 int run_convert(ConvertArguments& arguments) {
   convert::ConvertOptions& options = arguments.options;
-  if (options.glb.empty() && options.stream.empty())
-    throw Error(ExitCode::usage, "convert: name an output: -o OUT.glb, --stream OUT.zt or both");
   if (!arguments.max_error.empty()) {
     const Distance target = parse_distance(arguments.max_error, "--max-error");
     (target.in_metres ? options.max_error_metres : options.max_error) = target.value;
