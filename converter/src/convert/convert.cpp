@@ -4,6 +4,7 @@
 #include <tbb/info.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -106,6 +107,23 @@ struct ModelAndError {
   SurfaceModel model;
   double remeshing_error;
 };
+
+// Root mean squares of the details of each level, relative to the diagonal.
+std::vector<report::LevelDetails> level_details(const analysis::WaveletDecomposition& wavelets,
+                                                double diagonal) {
+  std::vector<report::LevelDetails> levels;
+  for (const std::vector<Eigen::Vector3d>& details : wavelets.details) {
+    double normal = 0, tangential = 0;
+    for (const Eigen::Vector3d& d : details) {
+      normal += d[0] * d[0];
+      tangential += d[1] * d[1] + d[2] * d[2];
+    }
+    const double count = std::max<double>(1, static_cast<double>(details.size()));
+    levels.push_back(
+        {std::sqrt(normal / count) / diagonal, std::sqrt(tangential / count) / diagonal});
+  }
+  return levels;
+}
 
 // Builds the model; with a base of automatic size, a larger one if the remesh lost something.
 ModelAndError build_faithful_model(const TriangleMesh& mesh, const measure::SurfaceIndex& original,
@@ -234,6 +252,7 @@ report::ConvertReport convert_file(const ConvertOptions& asked, const Progress& 
   report.remeshing_error = remesh_error;
   const PrefixMeasurement how = measurement_of(original, model, options, report);
   const analysis::WaveletDecomposition wavelets = analyse_model(model, options, clock, progress);
+  report.level_details = level_details(wavelets, report.diagonal);
   const double finest_step =
       report.diagonal *
       std::max(kStepPerRemeshingError * report.remeshing_error, kFinestRelativeStep);

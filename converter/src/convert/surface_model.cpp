@@ -5,7 +5,8 @@
 #include "analysis/wavelet_analysis.h"
 #include "clean/clean_mesh.h"
 #include "domain/domain.h"
-#include "fit/limit_interpolation.h"
+#include "fit/surface_fit.h"
+#include "relax/surface_relaxation.h"
 #include "remesh/remesh.h"
 
 namespace zerotree::convert {
@@ -24,12 +25,12 @@ void note_clean(const clean::CleanMesh& cleaned, report::ConvertReport& report) 
 }
 
 void note_remesh(const remesh::RemeshResult& remeshed, report::ConvertReport& report) {
-  report.base_vertices = remeshed.mesh.base.vertex_count;
-  report.base_faces = remeshed.mesh.base.triangles.size();
-  report.crease_edges = remeshed.mesh.base.crease_edges.size();
-  report.corners = remeshed.mesh.base.corner_vertices.size();
-  report.levels = remeshed.mesh.levels;
-  report.finest_vertices = remeshed.mesh.positions.size();
+  report.base_vertices = remeshed.report.base_vertices;
+  report.base_faces = remeshed.report.base_faces;
+  report.crease_edges = remeshed.report.base_crease_edges;
+  report.corners = remeshed.report.base_corners;
+  report.levels = remeshed.report.levels;
+  report.finest_vertices = remeshed.report.finest_vertices;
   report.cone_swaps = remeshed.report.cone_swaps;
 }
 
@@ -54,18 +55,22 @@ SurfaceModel build_surface_model(const TriangleMesh& mesh, const ConvertOptions&
 
   remesh::RemeshOptions remesh_options;
   remesh_options.levels = options.levels;
-  remesh::RemeshResult remeshed =
+  const remesh::RemeshResult remeshed =
       clock.run("remesh", [&] { return remesh::remesh(domain, remesh_options, progress); });
   note_remesh(remeshed, report);
 
+  const relax::RelaxedMesh relaxed = clock.run("relax", [&] {
+    return relax::relax(domain, remeshed.laid_out, remeshed.report.levels, {}, progress);
+  });
+
   SurfaceModel model;
-  model.base = std::move(remeshed.mesh.base);
+  model.base = relaxed.mesh.base;
   model.hierarchy = clock.run("topology", [&] {
-    return std::make_shared<const surface::SubdivisionHierarchy>(model.base, remeshed.mesh.levels,
+    return std::make_shared<const surface::SubdivisionHierarchy>(model.base, relaxed.mesh.levels,
                                                                  kTransform);
   });
   model.control_points = clock.run("fit", [&] {
-    return fit::control_points_from_samples(*model.hierarchy, remeshed.mesh.positions, {});
+    return fit::fit_control_points(domain, remeshed.laid_out, relaxed, {}, progress);
   });
   return model;
 }

@@ -12,22 +12,23 @@ constexpr double kReach = 1e-9;
 
 class LatticeSampler {
  public:
-  LatticeSampler(const TriangleMesh& mesh, const BaseDomain& base,
-                 const LatticeNumbering& numbering)
-      : mesh_(mesh),
-        base_(base),
+  LatticeSampler(const BaseDomain& base, const LatticeNumbering& numbering)
+      : base_(base),
         numbering_(numbering),
         depth_(numbering.vertex_count, -std::numeric_limits<double>::infinity()) {
-    samples.positions.resize(numbering.vertex_count, Eigen::Vector3d::Zero());
+    samples.faces.resize(numbering.vertex_count, kNone);
+    samples.weights.resize(numbering.vertex_count, Eigen::Vector3d::Zero());
   }
 
   // A base vertex is a vertex of the mesh: nothing to interpolate.
-  void set_base_vertex(std::uint32_t index) {
-    samples.positions[index] = mesh_.positions[base_.mesh_vertex[index]];
+  void set_base_vertex(std::uint32_t index, const domain::TriangleTopology& topology) {
+    const std::uint32_t vertex = base_.mesh_vertex[index];
+    samples.faces[index] = topology.face_of_vertex[vertex];
+    samples.weights[index][domain::corner_of(topology.faces[samples.faces[index]], vertex)] = 1;
     depth_[index] = std::numeric_limits<double>::infinity();
   }
 
-  void add_face(const FaceAnchor& anchor, const Triangle& corners,
+  void add_face(std::uint32_t index, const FaceAnchor& anchor,
                 const std::array<LatticePoint, 3>& face) {
     const double steps = numbering_.steps();
     const double area = lattice_area(face[0], face[1], face[2]);
@@ -44,7 +45,7 @@ class LatticeSampler {
         const Eigen::Vector3d weights(lattice_area(p, face[1], face[2]) / area,
                                       lattice_area(p, face[2], face[0]) / area,
                                       lattice_area(p, face[0], face[1]) / area);
-        if (weights.minCoeff() >= -kReach) offer(anchor, corners, p, weights);
+        if (weights.minCoeff() >= -kReach) offer(index, anchor, p, weights);
       }
   }
 
@@ -56,7 +57,7 @@ class LatticeSampler {
   LatticeSamples samples;
 
  private:
-  void offer(const FaceAnchor& anchor, const Triangle& corners, const LatticePoint& p,
+  void offer(std::uint32_t face, const FaceAnchor& anchor, const LatticePoint& p,
              const Eigen::Vector3d& weights) {
     const BasePlace place = walk(base_, anchor.triangle, anchor.point, p);
     if (!is_inside(place.point)) return;  // reached over the boundary
@@ -68,13 +69,10 @@ class LatticeSampler {
     const double depth = weights.minCoeff();
     if (depth <= depth_[vertex]) return;
     depth_[vertex] = depth;
-    const Eigen::Vector3d w = weights.cwiseMax(0.0) / weights.cwiseMax(0.0).sum();
-    samples.positions[vertex] = w[0] * mesh_.positions[corners[0]] +
-                                w[1] * mesh_.positions[corners[1]] +
-                                w[2] * mesh_.positions[corners[2]];
+    samples.faces[vertex] = face;
+    samples.weights[vertex] = weights.cwiseMax(0.0) / weights.cwiseMax(0.0).sum();
   }
 
-  const TriangleMesh& mesh_;
   const BaseDomain& base_;
   const LatticeNumbering& numbering_;
   std::vector<double> depth_;
@@ -82,14 +80,15 @@ class LatticeSampler {
 
 }  // namespace
 
-LatticeSamples sample_lattice(const TriangleMesh& mesh, const ConeCharts& charts,
-                              const BaseDomain& base, const LatticeNumbering& numbering) {
-  LatticeSampler sampler(mesh, base, numbering);
-  for (std::uint32_t v = 0; v < base.mesh_vertex.size(); ++v) sampler.set_base_vertex(v);
+LatticeSamples sample_lattice(const ConeCharts& charts, const BaseDomain& base,
+                              const LatticeNumbering& numbering) {
+  LatticeSampler sampler(base, numbering);
+  for (std::uint32_t v = 0; v < base.mesh_vertex.size(); ++v)
+    sampler.set_base_vertex(v, charts.topology);
   for (std::uint32_t f = 0; f < charts.topology.faces.size(); ++f) {
     const FaceAnchor anchor = anchor_of(charts, base, f);
     const auto corner = [&](int k) { return apply(anchor.map, charts.corner_point(f, k)); };
-    sampler.add_face(anchor, charts.topology.faces[f], {corner(0), corner(1), corner(2)});
+    sampler.add_face(f, anchor, {corner(0), corner(1), corner(2)});
   }
   sampler.samples.missing = sampler.count_missing();
   return std::move(sampler.samples);

@@ -5,7 +5,6 @@
 
 #include "mesh/error.h"
 #include "remesh/lattice_numbering.h"
-#include "remesh/lattice_sampling.h"
 #include "remesh/vertex_insertion.h"
 #include "remesh/vertex_relaxation.h"
 
@@ -118,7 +117,8 @@ Parameterisation parameterise(const domain::Domain& domain, const Progress& prog
 RemeshResult remesh(const domain::Domain& domain, const RemeshOptions& options,
                     const Progress& progress) {
   RemeshResult result;
-  const Parameterisation laid_out = parameterise_somehow(domain, progress, result.report);
+  result.laid_out = parameterise_somehow(domain, progress, result.report);
+  const Parameterisation& laid_out = result.laid_out;
   RemeshReport& report = result.report;
   report.cone_swaps = laid_out.cone_swaps;
   report.bijectivity = check_bijectivity(laid_out.charts, laid_out.base);
@@ -136,14 +136,7 @@ RemeshResult remesh(const domain::Domain& domain, const RemeshOptions& options,
   if (report.levels > kMaxLevels || count_finest_vertices(base, report.levels) > kMaxVertices)
     throw Error(ExitCode::usage, std::to_string(report.levels) +
                                      " levels are too many for this mesh; ask for fewer");
-  report_progress(progress, "sampling", 0.0);
-  const LatticeNumbering numbering = number_lattices(base, report.levels);
-  LatticeSamples samples = sample_lattice(domain.mesh, laid_out.charts, laid_out.base, numbering);
-  if (samples.missing > 0)
-    throw Error(ExitCode::internal, std::to_string(samples.missing) +
-                                        " vertices of the new mesh have no place on the input");
-  report.finest_vertices = numbering.vertex_count;
-  result.mesh = {base, report.levels, std::move(samples.positions)};
+  report.finest_vertices = static_cast<std::uint32_t>(count_finest_vertices(base, report.levels));
   return result;
 }
 

@@ -1,4 +1,4 @@
-// From a scan and its domain to a semi-regular mesh.
+// From the domain of a scan to a parameterisation over its base mesh.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,6 @@
 #include "mesh/progress.h"
 #include "remesh/bijectivity.h"
 #include "remesh/cone_charts.h"
-#include "remesh/semi_regular_mesh.h"
 
 namespace zerotree::remesh {
 
@@ -33,11 +32,6 @@ struct RemeshReport {
   BijectivityReport bijectivity;
 };
 
-struct RemeshResult {
-  SemiRegularMesh mesh;
-  RemeshReport report;
-};
-
 /// A bijection between a domain's mesh and its base surface.
 struct Parameterisation {
   BaseDomain base;
@@ -47,11 +41,16 @@ struct Parameterisation {
   std::size_t stuck = 0;
 };
 
+struct RemeshResult {
+  Parameterisation laid_out;
+  RemeshReport report;
+};
+
 /// Undoes the collapses of `domain` on its base surface, relaxing as it grows.
 Parameterisation parameterise(const domain::Domain& domain, const Progress& progress);
 
-/// Parameterises `domain` over its base mesh and samples it at 2^levels steps a base edge. The base
-/// is in the order of the stream's connectivity coder. Every position lies on the input surface.
+/// Parameterises `domain` over its base mesh, which is in the order of the stream's connectivity
+/// coder, and chooses the depth of its subdivision.
 /// Throws Error(refused_topology) if no base was found over which the mesh can be laid out,
 /// Error(usage) if `levels` makes more than 2^30 vertices.
 /// Cost: about 20 microseconds and 500 bytes per input vertex.

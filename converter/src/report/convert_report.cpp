@@ -29,6 +29,15 @@ nlohmann::ordered_json stages_json(const std::vector<StageCost>& stages) {
   return list;
 }
 
+nlohmann::ordered_json levels_to_json(const std::vector<LevelDetails>& levels) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const LevelDetails& level : levels)
+    json.push_back({{"level", json.size() + 1},
+                    {"normal", level.normal},
+                    {"tangential", level.tangential}});
+  return json;
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const ConvertReport& r) {
@@ -56,7 +65,8 @@ nlohmann::ordered_json to_json(const ConvertReport& r) {
        {{"levels", r.levels},
         {"finestVertices", r.finest_vertices},
         {"coneSwaps", r.cone_swaps},
-        {"error", r.remeshing_error}}},
+        {"error", r.remeshing_error},
+        {"levelDetails", levels_to_json(r.level_details)}}},
       {"payload", {{"bytes", r.payload_bytes}, {"prefixes", prefixes_json(r.payload_prefixes)}}},
       {"stream", {{"bytes", r.stream_bytes}, {"prefixes", prefixes_json(r.stream_prefixes)}}},
       {"file", {{"bytes", r.file_bytes}}},

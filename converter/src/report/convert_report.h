@@ -32,6 +32,12 @@ struct Repair {
   std::uint64_t count = 0;
 };
 
+/// What the details of one level add to the surface: root mean squares relative to the diagonal.
+struct LevelDetails {
+  double normal = 0;
+  double tangential = 0;
+};
+
 /// Results of a conversion. Lengths are in the input's unit unless they are called relative.
 struct ConvertReport {
   std::string input;
@@ -59,6 +65,9 @@ struct ConvertReport {
   int base_enlargements = 0;
   /// Symmetric RMS distance of the surface with every detail unquantised, relative.
   double remeshing_error = 0;
+
+  /// Of the details that lead to level 1, 2, ...
+  std::vector<LevelDetails> level_details;
 
   std::uint64_t stream_bytes = 0;
   std::uint64_t payload_bytes = 0;

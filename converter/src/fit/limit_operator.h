@@ -1,0 +1,33 @@
+// Limit positions of Loop control points, as an operator that can also be applied transposed.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "bitstream/base_topology.h"
+#include "relax/subdivided_levels.h"
+
+namespace zerotree::fit {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+/// The limit of Loop's scheme at the vertices of one level: the rules that surface::limit_stencils
+/// has from OpenSubdiv, at 16 bytes a vertex instead of 40. Refers to the level.
+class LimitOperator {
+ public:
+  /// `level` is one of the levels of `base`, not the base itself.
+  LimitOperator(const bitstream::BaseTopology& base, const relax::SubdividedLevel& level);
+
+  /// limit = A points. O(edges).
+  void apply(const Points& points, Points& limit) const;
+  /// result = A^T values.
+  void apply_transposed(const Points& values, Points& result) const;
+
+ private:
+  const relax::SubdividedLevel& level_;
+  // Weight of the vertex itself, of each neighbour, and of each neighbour along a feature.
+  std::vector<float> own_, neighbour_, feature_neighbour_;
+};
+
+}  // namespace zerotree::fit

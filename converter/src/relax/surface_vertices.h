@@ -1,0 +1,77 @@
+// The vertices of one level of a semi-regular mesh, bound to the input surface.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "domain/domain.h"
+#include "relax/chart_orientation.h"
+#include "relax/subdivided_levels.h"
+#include "relax/surface_walk.h"
+#include "remesh/remesh.h"
+
+namespace zerotree::relax {
+
+/// Where a vertex may go.
+enum class Freedom : std::uint8_t { surface, curve, none };
+
+/// The vertices of a working level. They only move by walks on the input.
+class SurfaceVertices {
+ public:
+  /// Samples the parameterisation at `level` of `levels`. All arguments must outlive this.
+  SurfaceVertices(const domain::Domain& domain, const remesh::Parameterisation& laid_out,
+                  const std::vector<SubdividedLevel>& levels, int level);
+
+  /// Goes on to the next finer level: new vertices halfway in the parameter domain.
+  void refine();
+
+  std::size_t size() const { return points_.size(); }
+  int level() const { return level_; }
+  const SubdividedLevel& connectivity() const { return levels_[static_cast<std::size_t>(level_)]; }
+  const SubdividedLevel& connectivity(int level) const {
+    return levels_[static_cast<std::size_t>(level)];
+  }
+  Freedom freedom(std::size_t v) const { return freedom_[v]; }
+  const std::vector<Eigen::Vector3d>& positions() const { return positions_; }
+  const std::vector<SurfacePoint>& points() const { return points_; }
+
+  /// A vertex's place, to go back to.
+  struct Place {
+    SurfacePoint point;
+    Eigen::Vector3d position;
+    ChartPlace chart;
+  };
+  Place place(std::size_t v) const { return {points_[v], positions_[v], charts_[v]}; }
+  void put(std::size_t v, const Place& place);
+  /// Walks by `step`, a vector tangential at unit `normal` (of any direction on curves).
+  void walk(std::size_t v, const Eigen::Vector3d& step, const Eigen::Vector3d& normal);
+  /// Whether a triangle of vertices is positively oriented in the parameter domain.
+  bool is_positive(const Triangle& t) const {
+    return chart_.is_positive(charts_[t[0]], charts_[t[1]], charts_[t[2]]);
+  }
+  std::uint32_t count_negative() const;
+
+ private:
+  void classify(std::size_t first);
+  void settle(std::size_t v);
+  void bind(std::size_t v);
+
+  InputSurface surface_;
+  const domain::Domain& domain_;
+  const remesh::Parameterisation& laid_out_;
+  const std::vector<SubdividedLevel>& levels_;
+  ParameterChart chart_;
+  int level_;
+  std::vector<SurfacePoint> points_;
+  std::vector<Eigen::Vector3d> positions_;
+  std::vector<ChartPlace> charts_;
+  std::vector<Freedom> freedom_;
+};
+
+/// Turns a tangent vector of one plane into another by the smallest rotation between their unit
+/// normals: it keeps its length round bends.
+Eigen::Vector3d transported(const Eigen::Vector3d& v, const Eigen::Vector3d& from,
+                            const Eigen::Vector3d& to);
+
+}  // namespace zerotree::relax
