@@ -11,7 +11,8 @@
 namespace zerotree::domain {
 
 struct DomainOptions {
-  /// Wanted vertices of the base mesh; 0: from the input's size, features and topology.
+  /// Wanted vertices of the base mesh; 0: from the input's density, shape, features and topology
+  /// (base_size.h).
   std::uint32_t base_vertices = 0;
   /// Edges whose normals turn by more than this are creases, in degrees; 180 switches creases off.
   /// 0: the default rule, which follows edges of 15 degrees where the surface turns
