@@ -28,6 +28,10 @@ void print_summary(const ConvertArguments& arguments, const report::ConvertRepor
                 static_cast<unsigned long long>(repair.count));
   for (const std::string& lost : report.not_carried)
     std::printf("  not carried: %s\n", lost.c_str());
+  std::printf(
+      "  remesh error %.2f, discretisation error of the input %.2f (1e-5 of the diagonal)\n",
+      report.remeshing_error * 1e5, report.discretisation_error * 1e5);
+  if (!report.remesh_remark.empty()) std::printf("  note: %s\n", report.remesh_remark.c_str());
   const auto& prefixes =
       arguments.options.glb.empty() ? report.stream_prefixes : report.payload_prefixes;
   std::printf("  %12s  %10s  %s\n", "bytes", "bits/vert", "error (1e-4 of the diagonal)");

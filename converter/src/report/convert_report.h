@@ -59,6 +59,11 @@ struct ConvertReport {
   int base_enlargements = 0;
   /// Symmetric RMS distance of the surface with every detail unquantised, relative.
   double remeshing_error = 0;
+  /// RMS distance of the input from a smooth surface through its vertices, relative: what its
+  /// density can show.
+  double discretisation_error = 0;
+  /// Why the remeshing error is far above that; empty if it is not.
+  std::string remesh_remark;
 
   std::uint64_t stream_bytes = 0;
   std::uint64_t payload_bytes = 0;
