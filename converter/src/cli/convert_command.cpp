@@ -16,6 +16,7 @@ struct ConvertArguments {
   convert::ConvertOptions options;
   std::filesystem::path report;
   std::string max_error;
+  std::string fill_holes;
 };
 
 void print_summary(const ConvertArguments& arguments, const report::ConvertReport& report) {
@@ -26,6 +27,9 @@ void print_summary(const ConvertArguments& arguments, const report::ConvertRepor
   for (const report::Repair& repair : report.repairs)
     std::printf("  repaired: %s: %llu\n", repair.what.c_str(),
                 static_cast<unsigned long long>(repair.count));
+  if (!arguments.fill_holes.empty())
+    std::printf("  holes filled: %zu, boundary loops left: %zu\n", report.filled_rims.size(),
+                report.left_rims.size());
   for (const std::string& lost : report.not_carried)
     std::printf("  not carried: %s\n", lost.c_str());
   std::printf(
@@ -45,6 +49,10 @@ int run_convert(ConvertArguments& arguments) {
   if (!arguments.max_error.empty()) {
     const Distance target = parse_distance(arguments.max_error, "--max-error");
     (target.in_metres ? options.max_error_metres : options.max_error) = target.value;
+  }
+  if (!arguments.fill_holes.empty()) {
+    const Distance size = parse_distance(arguments.fill_holes, "--fill-holes");
+    (size.in_metres ? options.fill_holes_metres : options.fill_holes) = size.value;
   }
   report::ConvertReport report;
   {
@@ -80,6 +88,8 @@ void add_convert(CLI::App& app, int& exit_code) {
       ->add_option("--crease-angle", options.crease_angle_degrees,
                    "Edges bent by more degrees than this are creases; 180: none [auto]")
       ->check(CLI::Range(1.0, 180.0));
+  command->add_option("--fill-holes", arguments->fill_holes,
+                      "Fill boundary loops whose bounding box has a shorter diagonal: 0.05, 3mm");
   command->add_option("--max-error", arguments->max_error,
                       "End the stream where the measured error is at most this: 1e-4, 0.5mm");
   command->add_option("--target-size", options.target_size, "Largest output file: 200000, 200kB")

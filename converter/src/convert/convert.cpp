@@ -11,6 +11,7 @@
 #include "convert/measured_stream.h"
 #include "convert/output_files.h"
 #include "convert/prefix_table.h"
+#include "convert/requested_repairs.h"
 #include "convert/surface_model.h"
 #include "decode/prefix_surface.h"
 #include "discretisation/discretisation_error.h"
@@ -225,12 +226,16 @@ report::ConvertReport convert_file(const ConvertOptions& asked, const Progress& 
   note_input(options, imported, report);
   check_memory(options, report.input_vertices);
 
-  const measure::SurfaceIndex original = name_input_in_errors(options.input, [&] {
+  measure::SurfaceIndex original = name_input_in_errors(options.input, [&] {
     return clock.run("index",
                      [&] { return measure::SurfaceIndex(imported.mesh, options.threads); });
   });
+  TriangleMesh cleaned;
   const auto [model, remesh_error] = name_input_in_errors(options.input, [&] {
-    const TriangleMesh cleaned = clean_input(imported.mesh, clock, report, progress);
+    cleaned = clean_input(imported.mesh, clock, report, progress);
+    // What was asked to be changed is no error: measure against the changed surface.
+    if (make_requested_repairs(cleaned, options, clock, report, progress))
+      original = measure::SurfaceIndex(cleaned, options.threads);
     report.discretisation_error = clock.run("discretisation", [&] {
       return discretisation::discretisation_error(
                  cleaned, original, {.crease_angle_degrees = options.crease_angle_degrees}) /

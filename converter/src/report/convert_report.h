@@ -48,6 +48,12 @@ struct ConvertReport {
   std::uint64_t boundary_loops = 0;
   std::int64_t genus = 0;
 
+  /// Rims of the boundary loops that were filled on request and of those that are left then,
+  /// relative to the diagonal; both empty if nothing was asked for.
+  std::vector<double> filled_rims;
+  std::vector<double> left_rims;
+  std::uint64_t filling_faces = 0;
+
   std::uint64_t base_vertices = 0;
   std::uint64_t base_faces = 0;
   std::uint64_t crease_edges = 0;
