@@ -108,6 +108,15 @@ class HoleFiller {
     return true;
   }
 
+  // The same without bending: the sides of a cut would go through each other.
+  void close(const BoundaryLoop& loop, TriangleMesh& filled) {
+    gather_rim(loop);
+    Patch patch{rim_.points, triangulate_rim(rim_), static_cast<std::uint32_t>(rim_.points.size())};
+    if (patch.triangles.empty()) fan_out(patch);
+    refine_patch(patch, rim_.may_connect);
+    add_to(filled, loop, patch);
+  }
+
  private:
   // The rim, and for each of its points the neighbours in the mesh beyond the rim.
   void gather_rim(const BoundaryLoop& loop) {
@@ -192,6 +201,19 @@ FilledMesh fill_holes(const TriangleMesh& mesh, const FillOptions& options,
   result.report.added_vertices = result.mesh.positions.size() - mesh.positions.size();
   result.report.added_faces = result.mesh.triangles.size() - mesh.triangles.size();
   return result;
+}
+
+TriangleMesh close_cuts(const TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices) {
+  TriangleMesh closed = mesh;
+  const domain::TriangleTopology topology =
+      domain::build_topology(static_cast<std::uint32_t>(mesh.positions.size()), mesh.triangles);
+  std::vector<std::uint8_t> is_cut(mesh.positions.size(), 0);
+  for (std::uint32_t v : vertices) is_cut[v] = 1;
+  HoleFiller filler(mesh, topology);
+  for (const BoundaryLoop& loop : find_loops(topology))
+    if (std::ranges::all_of(loop.vertices, [&](std::uint32_t v) { return is_cut[v] != 0; }))
+      filler.close(loop, closed);
+  return closed;
 }
 
 }  // namespace zerotree::repair

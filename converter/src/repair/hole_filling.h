@@ -40,4 +40,7 @@ struct FilledMesh {
 FilledMesh fill_holes(const TriangleMesh& mesh, const FillOptions& options,
                       const Progress& progress);
 
+/// Closes every boundary loop that consists of `vertices` alone, flat: the two sides of a cut.
+TriangleMesh close_cuts(const TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices);
+
 }  // namespace zerotree::repair
