@@ -17,6 +17,7 @@ struct ConvertArguments {
   std::filesystem::path report;
   std::string max_error;
   std::string fill_holes;
+  std::string remove_handles;
 };
 
 void print_summary(const ConvertArguments& arguments, const report::ConvertReport& report) {
@@ -30,6 +31,9 @@ void print_summary(const ConvertArguments& arguments, const report::ConvertRepor
   if (!arguments.fill_holes.empty())
     std::printf("  holes filled: %zu, boundary loops left: %zu\n", report.filled_rims.size(),
                 report.left_rims.size());
+  if (!arguments.remove_handles.empty())
+    std::printf("  handles removed: %zu, genus left: %lld\n", report.handle_loops.size(),
+                static_cast<long long>(report.genus));
   for (const std::string& lost : report.not_carried)
     std::printf("  not carried: %s\n", lost.c_str());
   std::printf(
@@ -53,6 +57,10 @@ int run_convert(ConvertArguments& arguments) {
   if (!arguments.fill_holes.empty()) {
     const Distance size = parse_distance(arguments.fill_holes, "--fill-holes");
     (size.in_metres ? options.fill_holes_metres : options.fill_holes) = size.value;
+  }
+  if (!arguments.remove_handles.empty()) {
+    const Distance size = parse_distance(arguments.remove_handles, "--remove-handles");
+    (size.in_metres ? options.remove_handles_metres : options.remove_handles) = size.value;
   }
   report::ConvertReport report;
   {
@@ -90,6 +98,9 @@ void add_convert(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1.0, 180.0));
   command->add_option("--fill-holes", arguments->fill_holes,
                       "Fill boundary loops whose bounding box has a shorter diagonal: 0.05, 3mm");
+  command->add_option(
+      "--remove-handles", arguments->remove_handles,
+      "Cut handles and tunnels with a closed path shorter than this around them: 0.02, 3mm");
   command->add_option("--max-error", arguments->max_error,
                       "End the stream where the measured error is at most this: 1e-4, 0.5mm");
   command->add_option("--target-size", options.target_size, "Largest output file: 200000, 200kB")

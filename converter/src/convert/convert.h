@@ -30,6 +30,11 @@ struct ConvertOptions {
   double fill_holes = 0;
   /// The same in metres; 0: not given.
   double fill_holes_metres = 0;
+  /// Handles with a closed path shorter than this around or through them are removed (relative); 0:
+  /// none.
+  double remove_handles = 0;
+  /// The same in metres; 0: not given.
+  double remove_handles_metres = 0;
   /// Cut the stream where the measured error first is at most this (relative); 0: no cut.
   double max_error = 0;
   /// The same in metres, taken relative to the diagonal once that is known; 0: not given.

@@ -4,6 +4,7 @@
 
 #include "clean/manifold_check.h"
 #include "mesh/error.h"
+#include "repair/handle_removal.h"
 #include "repair/hole_filling.h"
 
 namespace zerotree::convert {
@@ -20,6 +21,16 @@ bool fill_holes(TriangleMesh& mesh, const ConvertOptions& options, report::Conve
   report.filling_faces = filled.report.added_faces;
   mesh = std::move(filled.mesh);
   return !filled.report.filled_rims.empty();
+}
+
+bool remove_handles(TriangleMesh& mesh, const ConvertOptions& options,
+                    report::ConvertReport& report, const Progress& progress) {
+  const double size = options.remove_handles * report.diagonal + options.remove_handles_metres;
+  repair::HandleFreeMesh freed = repair::remove_handles(mesh, {.size = size}, progress);
+  report.genus_before = freed.report.genus_before;
+  for (double length : freed.report.loops) report.handle_loops.push_back(length / report.diagonal);
+  mesh = std::move(freed.mesh);
+  return !freed.report.loops.empty();
 }
 
 void note_topology(const TriangleMesh& mesh, report::ConvertReport& report) {
@@ -43,6 +54,9 @@ bool make_requested_repairs(TriangleMesh& mesh, const ConvertOptions& options,
   bool changed = false;
   if (options.fill_holes > 0 || options.fill_holes_metres > 0)
     changed = clock.run("fill holes", [&] { return fill_holes(mesh, options, report, progress); });
+  if (options.remove_handles > 0 || options.remove_handles_metres > 0)
+    changed |= clock.run("remove handles",
+                         [&] { return remove_handles(mesh, options, report, progress); });
   if (changed) note_topology(mesh, report);
   return changed;
 }

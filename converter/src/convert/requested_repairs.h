@@ -8,8 +8,8 @@
 
 namespace zerotree::convert {
 
-/// Fills holes of the clean `mesh` as `options` say, and notes in `report` what was done and what
-/// topology is left. Returns whether anything changed.
+/// Fills holes and removes handles of the clean `mesh` as `options` say, and notes in `report` what
+/// was done and what topology is left. Returns whether anything changed.
 bool make_requested_repairs(TriangleMesh& mesh, const ConvertOptions& options,
                             report::StageClock& clock, report::ConvertReport& report,
                             const Progress& progress);

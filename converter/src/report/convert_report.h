@@ -53,6 +53,10 @@ struct ConvertReport {
   std::vector<double> filled_rims;
   std::vector<double> left_rims;
   std::uint64_t filling_faces = 0;
+  /// Lengths of the loops along which handles were cut on request, relative to the diagonal, and
+  /// the genus before that; `genus` is what is left.
+  std::vector<double> handle_loops;
+  std::uint64_t genus_before = 0;
 
   std::uint64_t base_vertices = 0;
   std::uint64_t base_faces = 0;
