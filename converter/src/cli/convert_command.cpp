@@ -16,6 +16,8 @@ struct ConvertArguments {
   convert::ConvertOptions options;
   std::filesystem::path report;
   std::string max_error;
+  std::string fill_holes;
+  std::string remove_handles;
 };
 
 void print_summary(const ConvertArguments& arguments, const report::ConvertReport& report) {
@@ -26,8 +28,18 @@ void print_summary(const ConvertArguments& arguments, const report::ConvertRepor
   for (const report::Repair& repair : report.repairs)
     std::printf("  repaired: %s: %llu\n", repair.what.c_str(),
                 static_cast<unsigned long long>(repair.count));
+  if (!arguments.fill_holes.empty())
+    std::printf("  holes filled: %zu, boundary loops left: %zu\n", report.filled_rims.size(),
+                report.left_rims.size());
+  if (!arguments.remove_handles.empty())
+    std::printf("  handles removed: %zu, genus left: %lld\n", report.handle_loops.size(),
+                static_cast<long long>(report.genus));
   for (const std::string& lost : report.not_carried)
     std::printf("  not carried: %s\n", lost.c_str());
+  std::printf(
+      "  remesh error %.2f, discretisation error of the input %.2f (1e-5 of the diagonal)\n",
+      report.remeshing_error * 1e5, report.discretisation_error * 1e5);
+  if (!report.remesh_remark.empty()) std::printf("  note: %s\n", report.remesh_remark.c_str());
   const auto& prefixes =
       arguments.options.glb.empty() ? report.stream_prefixes : report.payload_prefixes;
   std::printf("  %12s  %10s  %s\n", "bytes", "bits/vert", "error (1e-4 of the diagonal)");
@@ -41,6 +53,14 @@ int run_convert(ConvertArguments& arguments) {
   if (!arguments.max_error.empty()) {
     const Distance target = parse_distance(arguments.max_error, "--max-error");
     (target.in_metres ? options.max_error_metres : options.max_error) = target.value;
+  }
+  if (!arguments.fill_holes.empty()) {
+    const Distance size = parse_distance(arguments.fill_holes, "--fill-holes");
+    (size.in_metres ? options.fill_holes_metres : options.fill_holes) = size.value;
+  }
+  if (!arguments.remove_handles.empty()) {
+    const Distance size = parse_distance(arguments.remove_handles, "--remove-handles");
+    (size.in_metres ? options.remove_handles_metres : options.remove_handles) = size.value;
   }
   report::ConvertReport report;
   {
@@ -76,6 +96,11 @@ void add_convert(CLI::App& app, int& exit_code) {
       ->add_option("--crease-angle", options.crease_angle_degrees,
                    "Edges bent by more degrees than this are creases; 180: none [auto]")
       ->check(CLI::Range(1.0, 180.0));
+  command->add_option("--fill-holes", arguments->fill_holes,
+                      "Fill boundary loops whose bounding box has a shorter diagonal: 0.05, 3mm");
+  command->add_option(
+      "--remove-handles", arguments->remove_handles,
+      "Cut handles and tunnels with a closed path shorter than this around them: 0.02, 3mm");
   command->add_option("--max-error", arguments->max_error,
                       "End the stream where the measured error is at most this: 1e-4, 0.5mm");
   command->add_option("--target-size", options.target_size, "Largest output file: 200000, 200kB")

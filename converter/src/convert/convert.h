@@ -25,6 +25,16 @@ struct ConvertOptions {
   int levels = -1;
   /// Edges bent by more than this are creases; 180 switches creases off. 0: the default rule.
   double crease_angle_degrees = 0;
+  /// Boundary loops with a bounding box of a shorter diagonal than this are filled (relative); 0:
+  /// none.
+  double fill_holes = 0;
+  /// The same in metres; 0: not given.
+  double fill_holes_metres = 0;
+  /// Handles with a closed path shorter than this around or through them are removed (relative); 0:
+  /// none.
+  double remove_handles = 0;
+  /// The same in metres; 0: not given.
+  double remove_handles_metres = 0;
   /// Cut the stream where the measured error first is at most this (relative); 0: no cut.
   double max_error = 0;
   /// The same in metres, taken relative to the diagonal once that is known; 0: not given.

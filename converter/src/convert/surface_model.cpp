@@ -55,6 +55,8 @@ SurfaceModel build_surface_model(const TriangleMesh& mesh, const ConvertOptions&
 
   remesh::RemeshOptions remesh_options;
   remesh_options.levels = options.levels;
+  remesh_options.goal = {options.max_error + options.max_error_metres / report.diagonal,
+                         report.discretisation_error};
   const remesh::RemeshResult remeshed =
       clock.run("remesh", [&] { return remesh::remesh(domain, remesh_options, progress); });
   note_remesh(remeshed, report);

@@ -1,15 +1,57 @@
-// How many vertices a base mesh needs.
+// How many vertices a base mesh needs, and how often it is subdivided: chosen together, so that the
+// finest mesh has the density of the input.
 #pragma once
+
+#include <cstdint>
+#include <vector>
 
 #include "domain/domain.h"
 
 namespace zerotree::domain {
 
-/// Components, boundary loops and total genus of the mesh, into `report`.
-void count_topology(const TriangleTopology& topology, DomainReport& report);
+/// One connected piece of a mesh.
+struct ComponentCounts {
+  std::uint32_t vertices = 0;
+  std::uint32_t faces = 0;
+  std::uint32_t boundary_edges = 0;
+  std::uint32_t boundary_loops = 0;
+  std::uint32_t corners = 0;
+  std::uint32_t genus = 0;
+};
 
-/// The base size for `vertices` input vertices if none is asked for: one in 240, but enough for
-/// every component, loop, handle and corner that `report` counts.
-std::uint32_t automatic_base_size(std::uint32_t vertices, const DomainReport& report);
+/// The components of the mesh, by their first face. `kinds` may be empty: no corners then. Linear.
+std::vector<ComponentCounts> count_components(const TriangleTopology& topology,
+                                              const std::vector<VertexKind>& kinds);
+
+/// Components, boundary loops, corners and total genus into `report`.
+void sum_topology(const std::vector<ComponentCounts>& components, DomainReport& report);
+
+/// Base vertices that the topology and the features take for themselves. A component that is too
+/// small for a base of its own keeps all its vertices.
+std::uint32_t fixed_base_size(const std::vector<ComponentCounts>& components);
+
+/// The base size if none is asked for. The shape asks for a number that grows with the cube root of
+/// its `complexity` (shape_complexity.h), features and topology for theirs besides. Of all depths
+/// the largest is taken at which the finest mesh may still have so large a base without more faces
+/// than `finest_face_limit`, and the base is made as large as that depth allows.
+std::uint32_t automatic_base_size(const std::vector<ComponentCounts>& components,
+                                  double complexity);
+
+/// Faces of the finest mesh, at most, where features and topology leave the choice: four times
+/// those of the input, 1.5 times from 400,000 faces on, and 2000 for tiny meshes.
+double finest_face_limit(std::size_t input_faces);
+
+/// What the surface is wanted for. Errors are relative to the diagonal; 0: not known.
+struct AccuracyGoal {
+  double max_error = 0;
+  double discretisation_error = 0;
+};
+
+/// Levels of subdivision for a base of `base_faces`, at least one: as many as keep the finest mesh
+/// within 1.5 times finest_face_limit, as a base that was asked for or held up by its features may
+/// be too large by so much. A mesh of fewer than 2000 faces is subdivided once more. If a larger
+/// error is asked for than such a mesh has, levels are left out, each of which makes the error
+/// three times smaller; one is added where less than half of the discretisation error is wanted.
+int automatic_levels(std::size_t base_faces, std::size_t input_faces, const AccuracyGoal& goal);
 
 }  // namespace zerotree::domain

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "domain/base_size.h"
 #include "domain/decimation.h"
@@ -7,6 +8,7 @@
 #include "domain/ear_splits.h"
 #include "domain/feature_edges.h"
 #include "domain/feature_vertices.h"
+#include "domain/shape_complexity.h"
 
 namespace zerotree::domain {
 namespace {
@@ -39,12 +41,7 @@ void count_base(Domain& domain) {
 }
 
 void decimate_to_base(const DomainOptions& options, const Progress& progress, Domain& domain) {
-  DomainReport& report = domain.report;
-  report.target_base_vertices =
-      options.base_vertices > 0
-          ? options.base_vertices
-          : automatic_base_size(static_cast<std::uint32_t>(domain.kinds.size()), report);
-  decimate(domain, options.pinned_vertices, report.target_base_vertices, progress);
+  decimate(domain, options.pinned_vertices, domain.report.target_base_vertices, progress);
   domain.base_faces = remaining_faces(domain);
   count_base(domain);
 }
@@ -62,9 +59,12 @@ Domain build_domain(const TriangleMesh& mesh, const DomainOptions& options,
       tag_crease_edges(mesh, options.crease_angle_degrees, domain.topology);
   domain.report.ear_splits = split_ears(domain.mesh, domain.topology);
   domain.kinds = classify_vertices(domain.mesh, domain.topology);
-  domain.report.corners =
-      static_cast<std::uint32_t>(std::ranges::count(domain.kinds, VertexKind::corner));
-  count_topology(domain.topology, domain.report);
+  const std::vector<ComponentCounts> components = count_components(domain.topology, domain.kinds);
+  sum_topology(components, domain.report);
+  domain.report.target_base_vertices =
+      options.base_vertices > 0
+          ? options.base_vertices
+          : automatic_base_size(components, shape_complexity(domain.mesh, domain.topology));
   decimate_to_base(options, progress, domain);
   return domain;
 }
@@ -76,6 +76,7 @@ void rebuild_base(Domain& domain, const DomainOptions& options, std::size_t keep
     undo_collapse(domain.topology, domain.collapses.back(), fan);
     domain.collapses.pop_back();
   }
+  if (options.base_vertices > 0) domain.report.target_base_vertices = options.base_vertices;
   decimate_to_base(options, progress, domain);
 }
 

@@ -11,12 +11,14 @@
 namespace zerotree::domain {
 
 struct DomainOptions {
-  /// Wanted vertices of the base mesh; 0: from the input's size, features and topology.
+  /// Wanted vertices of the base mesh; 0: from the input's density, shape, features and topology
+  /// (base_size.h).
   std::uint32_t base_vertices = 0;
   /// Edges whose normals turn by more than this are creases, in degrees; 180 switches creases off.
   /// 0: the default rule, which follows edges of 15 degrees where the surface turns
-  /// nowhere else, and wants most of them above 40, half a diagonal of them together and one
-  /// 25th of it on average between their ends, junctions and sharp turns.
+  /// nowhere else, takes off the short branches that noise makes, and wants most edges above 40
+  /// degrees, half a diagonal of them together and one 25th of it on average between their ends,
+  /// junctions and sharp turns. A closed rim in a plane may be shorter.
   double crease_angle_degrees = 0;
   /// Vertices that must stay in the base mesh, ascending (the remesher's answer to a place where
   /// the undo of a collapse has no room).

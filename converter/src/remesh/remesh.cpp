@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "domain/base_size.h"
 #include "mesh/error.h"
 #include "remesh/lattice_numbering.h"
 #include "remesh/vertex_insertion.h"
@@ -21,22 +22,10 @@ constexpr std::uint32_t kMaxRebuilds = 300;
 // After so many, each goes back over so many collapses more than the one before.
 constexpr std::uint32_t kPatience = 16;
 constexpr std::uint32_t kBackSteps = 8;
-constexpr double kFacesPerInputFace = 2.25;
-// A mesh of few faces has larger angles than the smooth limit surface of so few points can follow.
-constexpr double kLeastFaces = 2000;
 constexpr int kMaxLevels = 12;
 constexpr std::uint64_t kMaxVertices = std::uint64_t{1} << 30;
 // Rounding in the sum of a base triangle's covered area.
 constexpr double kCoverageTolerance = 1e-9;
-
-int automatic_levels(const bitstream::BaseTopology& base, std::size_t input_faces) {
-  int levels = 1;
-  const double wanted =
-      std::max(kFacesPerInputFace * static_cast<double>(input_faces), kLeastFaces);
-  double faces = 4.0 * static_cast<double>(base.triangles.size());
-  for (; faces < wanted && levels < kMaxLevels; ++levels) faces *= 4;
-  return levels;
-}
 
 void count_base(const bitstream::BaseTopology& base, RemeshReport& report) {
   std::vector<std::uint32_t> valences(base.vertex_count, 0);
@@ -131,8 +120,10 @@ RemeshResult remesh(const domain::Domain& domain, const RemeshOptions& options,
 
   const bitstream::BaseTopology& base = laid_out.base.topology;
   count_base(base, report);
-  report.levels =
-      options.levels >= 0 ? options.levels : automatic_levels(base, domain.mesh.triangles.size());
+  report.levels = options.levels >= 0
+                      ? options.levels
+                      : domain::automatic_levels(base.triangles.size(),
+                                                 domain.mesh.triangles.size(), options.goal);
   if (report.levels > kMaxLevels || count_finest_vertices(base, report.levels) > kMaxVertices)
     throw Error(ExitCode::usage, std::to_string(report.levels) +
                                      " levels are too many for this mesh; ask for fewer");

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "domain/base_size.h"
 #include "domain/domain.h"
 #include "mesh/progress.h"
 #include "remesh/bijectivity.h"
@@ -11,8 +12,9 @@
 namespace zerotree::remesh {
 
 struct RemeshOptions {
-  /// Subdivision levels; -1: the least with 2.25 times the input's faces and with 2000 faces.
+  /// Subdivision levels; -1: from the input's density and `goal` (domain/base_size.h).
   int levels = -1;
+  domain::AccuracyGoal goal = {};
 };
 
 struct RemeshReport {

@@ -54,6 +54,16 @@ struct ConvertReport {
   std::uint64_t boundary_loops = 0;
   std::int64_t genus = 0;
 
+  /// Rims of the boundary loops that were filled on request and of those that are left then,
+  /// relative to the diagonal; both empty if nothing was asked for.
+  std::vector<double> filled_rims;
+  std::vector<double> left_rims;
+  std::uint64_t filling_faces = 0;
+  /// Lengths of the loops along which handles were cut on request, relative to the diagonal, and
+  /// the genus before that; `genus` is what is left.
+  std::vector<double> handle_loops;
+  std::uint64_t genus_before = 0;
+
   std::uint64_t base_vertices = 0;
   std::uint64_t base_faces = 0;
   std::uint64_t crease_edges = 0;
@@ -65,6 +75,11 @@ struct ConvertReport {
   int base_enlargements = 0;
   /// Symmetric RMS distance of the surface with every detail unquantised, relative.
   double remeshing_error = 0;
+  /// RMS distance of the input from a smooth surface through its vertices, relative: what its
+  /// density can show.
+  double discretisation_error = 0;
+  /// Why the remeshing error is far above that; empty if it is not.
+  std::string remesh_remark;
 
   /// Of the details that lead to level 1, 2, ...
   std::vector<LevelDetails> level_details;

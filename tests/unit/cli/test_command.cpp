@@ -207,6 +207,43 @@ TEST(Command, RefusesWithTheRightCodeASentenceAndNoOutput) {
 }
 
 // The command links two libraries that know glTF; a part of the one must not serve the other.
+TEST(Command, FillsHolesAndRemovesHandlesOnRequestOnly) {
+  const TemporaryFolder folder;
+  TriangleMesh ring = midpoint_subdivide(
+      voxel_surface(
+          {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {2, 1, 0}, {0, 2, 0}, {1, 2, 0}, {2, 2, 0}}),
+      2);
+  ring.triangles.pop_back();
+  write_off(folder / "in.off", ring);
+  const auto convert = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"convert",  folder / "in.off",
+                                       "--stream", folder / "out.zt",
+                                       "--report", folder / "report.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const CommandResult result = run_zerotree(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(std::ifstream(folder / "report.json"));
+  };
+  const nlohmann::json kept = convert({});
+  EXPECT_EQ(kept["clean"]["boundaryLoops"], 1);
+  EXPECT_EQ(kept["clean"]["genus"], 1);
+  EXPECT_EQ(kept["holes"]["filled"], 0);
+  EXPECT_GT(kept["remesh"]["levels"], 0);
+  const nlohmann::json changed = convert({"--fill-holes", "0.5", "--remove-handles", "4.5m"});
+  EXPECT_EQ(changed["clean"]["boundaryLoops"], 0);
+  EXPECT_EQ(changed["clean"]["genus"], 0);
+  EXPECT_EQ(changed["holes"]["filled"], 1);
+  EXPECT_EQ(changed["holes"]["leftRims"].size(), 0u);
+  EXPECT_EQ(changed["handles"]["removed"], 1);
+  EXPECT_EQ(changed["handles"]["genusBefore"], 1);
+  for (const char* option : {"--fill-holes", "--remove-handles"}) {
+    const CommandResult refused =
+        run_zerotree({"convert", folder / "in.off", "--stream", folder / "x.zt", option, "small"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find(option), std::string::npos) << refused.err;
+  }
+}
+
 TEST(Command, ReadsAGltfWithMaterialsAndCameras) {
   const TemporaryFolder folder;
   const TriangleMesh mesh = bumpy_sphere();
