@@ -65,7 +65,7 @@ double CollapseChoice::cheapest(std::uint32_t vertex, const CollapseCaps& caps,
   for (std::size_t i = 0; i < rules_.edge_count(); ++i) {
     const CollapseSite site = rules_.site_along(i);
     if (!rules_.keeps_valences(site, caps)) continue;
-    const double cost = cost_.of(site, caps.forbid_flips, best_cost);
+    const double cost = cost_.of(site, caps, best_cost);
     if (!std::isfinite(cost) || cost > best_cost || (cost == best_cost && site.kept >= best.kept)) continue;
     if (!rules_.allows(site, caps)) continue;
     best_cost = cost;

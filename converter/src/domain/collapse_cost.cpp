@@ -87,7 +87,7 @@ void CollapseCost::visit(const TriangleTopology& topology, const Star& star) {
   }
 }
 
-double CollapseCost::of(const CollapseSite& site, bool forbid_flips, double limit) const {
+double CollapseCost::of(const CollapseSite& site, const CollapseCaps& caps, double limit) const {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const Eigen::Vector3d& to = positions_[site.kept];
   const double distance = quadrics_[site.removed].at(to) + quadrics_[site.kept].at(to);
@@ -98,7 +98,7 @@ double CollapseCost::of(const CollapseSite& site, bool forbid_flips, double limi
     if (side.face == site.left || side.face == site.right) continue;
     const Eigen::Vector3d to_p = side.p - to, to_q = side.q - to, after = to_p.cross(to_q);
     const double size = after.norm(), cosine = side.area.dot(after), sizes = side.size * size;
-    if (forbid_flips && cosine < 0.1 * sizes) return infinite;
+    if (caps.forbid_flips && cosine < 0.1 * sizes) return infinite;
     turn = std::min(turn, cosine / std::max(sizes, 1e-300));
     area += size / 2;
     const double edges = to_p.squaredNorm() + to_q.squaredNorm() + side.squared_length;

@@ -27,8 +27,9 @@ class CollapseCost {
   void visit(const TriangleTopology& topology, const Star& star);
 
   /// Cost of merging the vertex as `site` says: (quadric + area term) x aspect x exp(valence
-  /// excess). Infinite if a face would flip and `forbid_flips`, or if it is not below `limit`.
-  double of(const CollapseSite& site, bool forbid_flips, double limit) const;
+  /// excess). Infinite if a face would flip and the caps forbid
+  /// that, or if it is not below `limit`.
+  double of(const CollapseSite& site, const CollapseCaps& caps, double limit) const;
 
  private:
   // A face of the star: the side opposite the vertex, and the face's doubled area vector.

@@ -1,5 +1,6 @@
 #include "domain/decimation.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "domain/bulk_decimation.h"
@@ -9,7 +10,8 @@
 namespace zerotree::domain {
 namespace {
 
-// What is still allowed when nothing else is left to collapse above the target.
+// What is still allowed when nothing else is left to collapse above the target. Smooth vertices get
+// no valence below 5 or above 7 at first.
 constexpr CollapseCaps kCaps[] = {
     {.irregularity = 0},
     {},
@@ -19,6 +21,8 @@ constexpr CollapseCaps kCaps[] = {
 // From so many vertices per vertex of the base on, collapses are done one by one and costs are kept
 // exact: the base gets better by several percent of the rate.
 constexpr std::size_t kExactPerBaseVertex = 16;
+// From so many times the base on, valences get no worse. Sooner, and limbs would lose their tips.
+constexpr double kRegularPerBaseVertex = 1.5;
 
 class Decimator {
  public:
@@ -26,13 +30,13 @@ class Decimator {
       : state_(state),
         choice_(state),
         heap_(static_cast<std::uint32_t>(state.kinds.size())),
-        target_(target),
         exact_below_(kExactPerBaseVertex * target) {}
 
-  void run(const CollapseCaps& caps, const Progress& progress) {
+  void run(const CollapseCaps& caps, std::size_t target, const Progress& progress) {
     caps_ = caps;
+    if (state_.vertex_count() <= target) return;
     for (std::uint32_t v = 0; v < state_.fixed.size(); ++v) update(v);
-    while (!heap_.empty() && state_.vertex_count() > target_) {
+    while (!heap_.empty() && state_.vertex_count() > target) {
       if (state_.records.size() % 65536 == 0)
         report_progress(progress, "decimating",
                         static_cast<double>(state_.records.size()) /
@@ -78,7 +82,7 @@ class Decimator {
   DecimationState& state_;
   CollapseChoice choice_;
   IndexedHeap heap_;
-  std::size_t target_, exact_below_;
+  std::size_t exact_below_;
   CollapseCaps caps_;
   Star kept_star_;
 };
@@ -88,10 +92,12 @@ class Decimator {
 void decimate(Domain& domain, const std::vector<std::uint32_t>& pinned, std::uint32_t target,
               const Progress& progress) {
   DecimationState state(domain, pinned);
-  domain.collapses.reserve(state.positions.size() - std::min<std::size_t>(target, state.positions.size()));
+  const std::size_t count = state.positions.size();
+  domain.collapses.reserve(count - std::min<std::size_t>(target, count));
   decimate_in_bulk(state, kExactPerBaseVertex * std::size_t{target}, progress);
   Decimator decimator(state, target);
-  for (const CollapseCaps& caps : kCaps) decimator.run(caps, progress);
+  decimator.run({}, static_cast<std::size_t>(kRegularPerBaseVertex * target), progress);
+  for (const CollapseCaps& caps : kCaps) decimator.run(caps, target, progress);
 }
 
 std::vector<std::uint8_t> mark_removed_faces(const Domain& domain) {

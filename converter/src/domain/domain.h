@@ -57,6 +57,9 @@ struct DomainReport {
   /// Of the base mesh; faces around a vertex.
   std::uint32_t min_valence = 0;
   std::uint32_t max_valence = 0;
+  /// Smooth vertices of the base mesh of valence below 5 and above 7.
+  std::uint32_t low_valences = 0;
+  std::uint32_t high_valences = 0;
 };
 
 /// A mesh taken apart. `mesh` is the input, first as it was, then the vertices and faces of the
