@@ -6,8 +6,8 @@
 #include "mesh/error.h"
 #include "remesh/lattice_numbering.h"
 #include "remesh/lattice_sampling.h"
+#include "remesh/relaxation_sweeps.h"
 #include "remesh/vertex_insertion.h"
-#include "remesh/vertex_relaxation.h"
 
 namespace zerotree::remesh {
 namespace {
@@ -82,6 +82,13 @@ Parameterisation parameterise_somehow(const domain::Domain& domain, const Progre
   return result;
 }
 
+// Sweeps come when half of the vertices are there, a quarter, and so on down to the base.
+bool is_sweep_due(std::size_t inserted, std::size_t all, std::size_t base_vertices) {
+  for (std::size_t due = all / 2; due >= base_vertices; due /= 2)
+    if (due == inserted) return true;
+  return false;
+}
+
 }  // namespace
 
 Parameterisation parameterise(const domain::Domain& domain, const Progress& progress) {
@@ -89,27 +96,19 @@ Parameterisation parameterise(const domain::Domain& domain, const Progress& prog
   result.charts = build_base_charts(domain, result.base);
   const std::vector<Eigen::Vector3d>& positions = domain.mesh.positions;
   VertexInsertion insertion(result.base, positions, domain.kinds);
-  VertexRelaxation relaxation(result.base, positions, domain.kinds);
+  RelaxationSweeps relaxation(result.base, positions, domain.kinds);
   const std::size_t collapses = domain.collapses.size();
-  std::size_t next_sweep = result.base.mesh_vertex.size();
+  const std::size_t base_vertices = std::max<std::size_t>(result.base.mesh_vertex.size(), 1);
   for (std::size_t i = 0; i < collapses; ++i) {
     if (!insertion.insert(result.charts, domain.collapses[collapses - 1 - i])) {
       result.stuck = collapses - i;
       return result;
     }
     const bool is_last = i + 1 == collapses;
-    if (i + 1 < next_sweep && !is_last) continue;
+    if (!is_last && !is_sweep_due(i + 1, collapses, base_vertices)) continue;
     report_progress(progress, "parameterising",
                     static_cast<double>(i) / static_cast<double>(collapses));
-    next_sweep = 2 * next_sweep;
-    for (int sweep = 0; sweep < (is_last ? kFinalSweeps : kSweeps); ++sweep) {
-      for (std::uint32_t v : std::vector<std::uint32_t>(result.base.mesh_vertex))
-        relaxation.relax(result.charts, v, 1);
-      for (std::size_t j = 0; j <= i; ++j) {
-        const domain::CollapseRecord& collapse = domain.collapses[collapses - 1 - j];
-        relaxation.relax(result.charts, collapse.removed, 1);
-      }
-    }
+    relaxation.run(result.charts, is_last ? kFinalSweeps : kSweeps);
   }
   result.cone_swaps = insertion.cone_swaps();
   return result;

@@ -114,7 +114,9 @@ void VertexInsertion::unfold(const ConeCharts& charts) {
 
   ring_.points.clear();
   for (const LatticePoint& point : ring_lattice_) ring_.points.push_back(to_plane(point));
+  // Around a cone only can the sector fill a whole turn.
   sector_.angle = 0;
+  if (charts.vertices[sector_.fixed].cone == kNone) return;
   const Eigen::Vector2d centre = to_plane(fixed_point);
   const std::size_t first = sector_.first_gap != kNone ? 1 : 0;
   for (std::size_t i = first; i < first + sector_.faces.size(); ++i) {
@@ -125,7 +127,8 @@ void VertexInsertion::unfold(const ConeCharts& charts) {
 
 bool VertexInsertion::place(ConeCharts& charts) {
   const VertexChart chart_before = charts.vertices[sector_.free];
-  std::vector<LatticeIsometry> before;
+  std::vector<LatticeIsometry>& before = transitions_before_;
+  before.clear();
   for (const auto& [face, corner] : sector_.faces)
     before.push_back(charts.transitions[face][corner]);
   energy_.prepare(ring_, positions_[sector_.free]);

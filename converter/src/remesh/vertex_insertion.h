@@ -32,7 +32,7 @@ class VertexInsertion {
     std::vector<domain::Corner> faces;
     std::vector<LatticeIsometry> charts;  // of each face, to that of the first
     std::size_t chain = kNone;            // ring entry of the free vertex's other chain neighbour
-    double angle = 0;
+    double angle = 0;  // around a cone
   };
 
   void unfold(const ConeCharts& charts);
@@ -55,6 +55,7 @@ class VertexInsertion {
   domain::Star star_;
   Ring ring_;
   std::vector<LatticePoint> ring_lattice_;
+  std::vector<LatticeIsometry> transitions_before_;
   StretchEnergy energy_;
 };
 
