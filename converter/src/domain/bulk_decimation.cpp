@@ -12,8 +12,9 @@ namespace {
 
 // A pass looks at this share of the vertices. Less comes closer to the strict order of costs, more
 // needs fewer passes.
-constexpr double kShareOfPass = 0.25;
-// A pass that collapses less than this share of the vertices isn't worth its sweep.
+constexpr double kShareOfPass = 0.5;
+// A pass that collapses, and looks anew at, less than this share of the vertices isn't worth its
+// sweep.
 constexpr double kLeastShareOfPass = 0.01;
 constexpr std::size_t kGrain = 512;
 
@@ -26,6 +27,8 @@ class BulkDecimation {
         searcher_(state) {
     for (std::uint32_t v = 0; v < choices_.size(); ++v)
       if (!state.fixed[v]) free_.push_back(v);
+    candidates_ = free_;
+    update_costs();
   }
 
   // Returns how many collapses were done.
@@ -36,6 +39,8 @@ class BulkDecimation {
     candidates_.clear();
     for (std::uint32_t v : free_)
       if (choices_[v].cost <= limit) candidates_.push_back(v);
+    updates_ = static_cast<std::size_t>(
+        std::ranges::count_if(candidates_, [&](std::uint32_t v) { return choices_[v].is_old; }));
     update_costs();
     std::erase_if(candidates_, [&](std::uint32_t v) { return choices_[v].cost > limit; });
     std::ranges::sort(candidates_, [&](std::uint32_t a, std::uint32_t b) {
@@ -48,12 +53,14 @@ class BulkDecimation {
   }
 
   std::size_t free_count() const { return free_.size(); }
+  // Costs that the last pass brought up to date.
+  std::size_t updates() const { return updates_; }
 
  private:
   // The cheapest collapse of a vertex as it was when last looked at. Costs mostly rise, so that an
   // old one is as good as a lower bound.
   struct Choice {
-    float cost = -1;  // below all others: not looked at yet
+    float cost = 0;
     std::uint32_t kept = kNone;
     bool is_old = true;
   };
@@ -66,7 +73,7 @@ class BulkDecimation {
     const auto at = costs_.begin() + static_cast<std::ptrdiff_t>(
                                          kShareOfPass * static_cast<double>(costs_.size() - 1));
     std::ranges::nth_element(costs_, at);
-    return *at < 0 ? std::numeric_limits<float>::max() : *at;
+    return *at;
   }
 
   void update_costs() {
@@ -115,6 +122,7 @@ class BulkDecimation {
   std::uint16_t pass_ = 0;
   std::vector<std::uint32_t> free_, candidates_;
   std::vector<float> costs_;
+  std::size_t updates_ = 0;
   CollapseChoice searcher_;
 };
 
@@ -130,7 +138,7 @@ void decimate_in_bulk(DecimationState& state, std::size_t target, const Progress
     const std::size_t above = state.vertex_count() - target;
     const std::size_t done = bulk.pass(above);
     const double least = kLeastShareOfPass * static_cast<double>(bulk.free_count());
-    if (done == above || static_cast<double>(done) <= least) return;
+    if (done == above || static_cast<double>(done + bulk.updates()) <= least) return;
   }
 }
 
