@@ -40,7 +40,7 @@ class BulkDecimation {
     for (std::uint32_t v : free_)
       if (choices_[v].cost <= limit) candidates_.push_back(v);
     updates_ = static_cast<std::size_t>(
-        std::ranges::count_if(candidates_, [&](std::uint32_t v) { return choices_[v].is_old; }));
+        std::ranges::count_if(candidates_, [&](std::uint32_t v) { return choices_[v].pass == 0; }));
     update_costs();
     std::erase_if(candidates_, [&](std::uint32_t v) { return choices_[v].cost > limit; });
     std::ranges::sort(candidates_, [&](std::uint32_t a, std::uint32_t b) {
@@ -57,12 +57,12 @@ class BulkDecimation {
   std::size_t updates() const { return updates_; }
 
  private:
-  // The cheapest collapse of a vertex as it was when last looked at. Costs mostly rise, so that an
-  // old one is as good as a lower bound.
+  // The cheapest collapse of a vertex as it was when last looked at. Costs mostly rise, so that one
+  // out of date serves as a lower bound.
   struct Choice {
     float cost = 0;
     std::uint32_t kept = kNone;
-    bool is_old = true;
+    std::uint16_t pass = 0;  // after which it was looked at; 0: it's out of date
   };
 
   float cost_limit() {
@@ -82,36 +82,41 @@ class BulkDecimation {
                         CollapseChoice searcher(state_);
                         for (std::size_t i = range.begin(); i != range.end(); ++i) {
                           Choice& choice = choices_[candidates_[i]];
-                          if (!choice.is_old) continue;
+                          if (choice.pass != 0) continue;
                           CollapseSite site;
                           const double cost = searcher.cheapest(candidates_[i], {}, site);
-                          choice = {static_cast<float>(cost), site.kept, false};
+                          choice = {static_cast<float>(cost), site.kept, pass_};
                         }
                       });
   }
 
-  bool is_touched(std::uint32_t vertex) const {
-    return vertex != kNone && touched_[vertex] == pass_;
-  }
-
-  // Does the collapse unless one of this pass has changed a vertex of its two faces: their valences
-  // and links are then as they were when it was chosen.
+  // Does the collapse unless another one has changed a vertex of its two faces since it was chosen:
+  // if not, their valences and links are as they were then.
   bool collapse(std::uint32_t vertex) {
-    const std::uint32_t kept = choices_[vertex].kept;
-    if (is_touched(vertex) || is_touched(kept)) return false;
-    const CollapseSite site = searcher_.site_into(vertex, kept);
-    if (is_touched(site.left_apex) || is_touched(site.right_apex)) return false;
+    Choice& choice = choices_[vertex];
+    const auto is_touched = [&](std::uint32_t v) {
+      return v != kNone && touched_[v] >= choice.pass;
+    };
+    const auto is_outdated = [&] {
+      if (choice.pass == 0 || is_touched(vertex) || is_touched(choice.kept)) return true;
+      site_ = searcher_.site_into(vertex, choice.kept);
+      return is_touched(site_.left_apex) || is_touched(site_.right_apex);
+    };
+    if (is_outdated()) {
+      choice.pass = 0;
+      return false;
+    }
     const Star& star = searcher_.star();
     for (const auto& [face, corner] : star.corners)
       for (std::uint32_t v : state_.topology.faces[face]) touch(v);
-    state_.apply(star, site);
+    state_.apply(star, site_);
     return true;
   }
 
   void touch(std::uint32_t vertex) {
     touched_[vertex] = pass_;
     Choice& choice = choices_[vertex];
-    choice.is_old = true;
+    choice.pass = 0;
     // What could not be collapsed may now: look again.
     if (!std::isfinite(choice.cost)) choice.cost = 0;
   }
@@ -119,11 +124,12 @@ class BulkDecimation {
   DecimationState& state_;
   std::vector<Choice> choices_;
   std::vector<std::uint16_t> touched_;  // the last pass that changed the vertex
-  std::uint16_t pass_ = 0;
+  std::uint16_t pass_ = 1;
   std::vector<std::uint32_t> free_, candidates_;
   std::vector<float> costs_;
   std::size_t updates_ = 0;
   CollapseChoice searcher_;
+  CollapseSite site_;
 };
 
 }  // namespace
@@ -131,7 +137,7 @@ class BulkDecimation {
 void decimate_in_bulk(DecimationState& state, std::size_t target, const Progress& progress) {
   if (state.vertex_count() <= target) return;
   BulkDecimation bulk(state);
-  for (int i = 0; i < std::numeric_limits<std::uint16_t>::max(); ++i) {
+  for (int i = 0; i < std::numeric_limits<std::uint16_t>::max() - 1; ++i) {
     report_progress(
         progress, "decimating",
         static_cast<double>(state.records.size()) / static_cast<double>(state.positions.size()));

@@ -12,8 +12,9 @@ namespace {
 constexpr int kNewtonSteps = 3;
 // A first guess is good if no triangle has less than this share of the mean area.
 constexpr double kGoodShare = 0.02;
-// Faces smaller than this (a base triangle is 1) are within reach of rounding.
-constexpr double kLeastArea = 1e-15;
+// Faces lower than this are within reach of rounding, which moves points by 2e-16 (a base edge is
+// 1). Small faces are not: where a handle is squeezed they get down to an area of 1e-18.
+constexpr double kLeastHeight = 4e-15;
 
 double ring_area(const Ring& ring, const Eigen::Vector2d& p) {
   double sum = 0;
@@ -264,8 +265,11 @@ void VertexInsertion::set_transitions(ConeCharts& charts, const LatticeIsometry&
 bool VertexInsertion::is_positive(const ConeCharts& charts, std::uint32_t vertex) {
   domain::gather_star(charts.topology, vertex, star_);
   return std::ranges::all_of(star_.corners, [&](const domain::Corner& at) {
-    return lattice_area(charts.corner_point(at.face, 0), charts.corner_point(at.face, 1),
-                        charts.corner_point(at.face, 2)) > kLeastArea;
+    const LatticePoint a = charts.corner_point(at.face, 0), b = charts.corner_point(at.face, 1),
+                       c = charts.corner_point(at.face, 2);
+    const double longest =
+        std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+    return lattice_area(a, b, c) > kLeastHeight * longest;
   });
 }
 
