@@ -66,7 +66,8 @@ double CollapseChoice::cheapest(std::uint32_t vertex, const CollapseCaps& caps,
     const CollapseSite site = rules_.site_along(i);
     if (!rules_.keeps_valences(site, caps)) continue;
     const double cost = cost_.of(site, caps, best_cost);
-    if (!std::isfinite(cost) || cost > best_cost || (cost == best_cost && site.kept >= best.kept)) continue;
+    if (!std::isfinite(cost) || cost > best_cost || (cost == best_cost && site.kept >= best.kept))
+      continue;
     if (!rules_.allows(site, caps)) continue;
     best_cost = cost;
     best = site;

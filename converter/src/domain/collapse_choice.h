@@ -34,8 +34,8 @@ class CollapseChoice {
         rules_(state.topology, state.kinds, state.fans),
         cost_(state.positions, state.quadrics) {}
 
-  /// The cost of the cheapest collapse of `vertex` that `caps` allow, of equals that into the lowest
-  /// vertex; infinite if there is none.
+  /// The cost of the cheapest collapse of `vertex` that `caps` allow, of equals that into the
+  /// lowest vertex; infinite if there is none.
   double cheapest(std::uint32_t vertex, const CollapseCaps& caps, CollapseSite& best);
   /// The collapse of `vertex` into `kept`, one of its neighbours.
   CollapseSite site_into(std::uint32_t vertex, std::uint32_t kept);

@@ -124,7 +124,8 @@ bool CollapseRules::has_link_condition(const CollapseSite& site) {
     return false;
   gather_star(topology_, site.kept, other_star_);
   const auto is_common = [&](std::uint32_t v) {
-    return v != site.left_apex && v != site.right_apex && std::ranges::find(ring_, v) != ring_.end();
+    return v != site.left_apex && v != site.right_apex &&
+           std::ranges::find(ring_, v) != ring_.end();
   };
   for (const Corner& corner : other_star_.corners)
     if (is_common(vertex_at(topology_, corner, 1))) return false;

@@ -45,8 +45,8 @@ void RelaxationSweeps::order_vertices(const ConeCharts& charts) {
 }
 
 void RelaxationSweeps::find_inner_vertices(const ConeCharts& charts) {
-  const std::size_t parts = std::clamp(order_.size() / kLeastVerticesPerPart, std::size_t{1},
-                                       kMostParts);
+  const std::size_t parts =
+      std::clamp(order_.size() / kLeastVerticesPerPart, std::size_t{1}, kMostParts);
   part_.assign(charts.vertices.size(), kNoPart);
   for (std::size_t i = 0; i < order_.size(); ++i)
     part_[order_[i]] = static_cast<std::uint8_t>(i * parts / order_.size());

@@ -32,7 +32,7 @@ class VertexInsertion {
     std::vector<domain::Corner> faces;
     std::vector<LatticeIsometry> charts;  // of each face, to that of the first
     std::size_t chain = kNone;            // ring entry of the free vertex's other chain neighbour
-    double angle = 0;  // around a cone
+    double angle = 0;                     // around a cone
   };
 
   void unfold(const ConeCharts& charts);
