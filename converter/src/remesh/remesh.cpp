@@ -17,6 +17,8 @@ constexpr int kSweeps = 2;
 // ... and when all vertices are there: on meshes of few vertices, CAD-like ones, this makes the
 // tangential details a fifth smaller; more of them shift stretch to where the surface bends.
 constexpr int kFinalSweeps = 4;
+// Newton steps for the neighbours of a vertex that has little room.
+constexpr int kStepsOfSqueezed = 3;
 // The undo may ask for so many more base vertices before the mesh is given up.
 constexpr std::uint32_t kMaxRebuilds = 300;
 // After so many, each goes back over so many collapses more than the one before.
@@ -82,6 +84,14 @@ Parameterisation parameterise_somehow(const domain::Domain& domain, const Progre
   return result;
 }
 
+// Gives the vertices around a squeezed one more room.
+void relax_ring(ConeCharts& charts, const domain::Star& star, VertexRelaxation& relaxation) {
+  for (const auto& [face, corner] : star.corners)
+    relaxation.relax(charts, charts.topology.faces[face][kNext[corner]], kStepsOfSqueezed);
+  const auto& [face, corner] = star.corners.front();
+  relaxation.relax(charts, charts.topology.faces[face][corner], kStepsOfSqueezed);
+}
+
 // Sweeps come when half of the vertices are there, a quarter, and so on down to the base.
 bool is_sweep_due(std::size_t inserted, std::size_t all, std::size_t base_vertices) {
   for (std::size_t due = all / 2; due >= base_vertices; due /= 2)
@@ -97,12 +107,18 @@ Parameterisation parameterise(const domain::Domain& domain, const Progress& prog
   const std::vector<Eigen::Vector3d>& positions = domain.mesh.positions;
   VertexInsertion insertion(result.base, positions, domain.kinds);
   RelaxationSweeps relaxation(result.base, positions, domain.kinds);
+  VertexRelaxation single_relaxation(result.base, positions, domain.kinds);
+  domain::Star neighbours;
   const std::size_t collapses = domain.collapses.size();
   const std::size_t base_vertices = std::max<std::size_t>(result.base.mesh_vertex.size(), 1);
   for (std::size_t i = 0; i < collapses; ++i) {
     if (!insertion.insert(result.charts, domain.collapses[collapses - 1 - i])) {
       result.stuck = collapses - i;
       return result;
+    }
+    if (insertion.is_squeezed()) {
+      neighbours = insertion.star();
+      relax_ring(result.charts, neighbours, single_relaxation);
     }
     const bool is_last = i + 1 == collapses;
     if (!is_last && !is_sweep_due(i + 1, collapses, base_vertices)) continue;

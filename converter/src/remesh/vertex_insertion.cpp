@@ -264,12 +264,15 @@ void VertexInsertion::set_transitions(ConeCharts& charts, const LatticeIsometry&
 
 bool VertexInsertion::is_positive(const ConeCharts& charts, std::uint32_t vertex) {
   domain::gather_star(charts.topology, vertex, star_);
+  least_area_ = 1;
   return std::ranges::all_of(star_.corners, [&](const domain::Corner& at) {
     const LatticePoint a = charts.corner_point(at.face, 0), b = charts.corner_point(at.face, 1),
                        c = charts.corner_point(at.face, 2);
     const double longest =
         std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
-    return lattice_area(a, b, c) > kLeastHeight * longest;
+    const double area = lattice_area(a, b, c);
+    least_area_ = std::min(least_area_, area);
+    return area > kLeastHeight * longest;
   });
 }
 
