@@ -78,7 +78,7 @@ struct Domain {
 /// Finds the features of `mesh` (clean, oriented, manifold; any genus, boundaries, components)
 /// and decimates it to a base mesh: a simplicial complex without duplicate edges, of the same
 /// topology. Throws Error(refused_topology) if the mesh is no manifold.
-/// Cost: about 10 microseconds and 400 bytes per vertex.
+/// Cost: about 8 microseconds and 250 bytes per vertex; the most of it on all threads of oneTBB.
 Domain build_domain(const TriangleMesh& mesh, const DomainOptions& options,
                     const Progress& progress);
 
