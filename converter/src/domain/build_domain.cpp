@@ -30,11 +30,16 @@ void count_base(Domain& domain) {
   report.base_vertices = 0;
   report.max_valence = 0;
   report.min_valence = std::numeric_limits<std::uint32_t>::max();
-  for (std::uint32_t valence : valences) {
+  report.low_valences = report.high_valences = 0;
+  for (std::size_t v = 0; v < valences.size(); ++v) {
+    const std::uint32_t valence = valences[v];
     if (valence == 0) continue;
     ++report.base_vertices;
     report.min_valence = std::min(report.min_valence, valence);
     report.max_valence = std::max(report.max_valence, valence);
+    if (domain.kinds[v] != VertexKind::smooth) continue;
+    report.low_valences += valence < 5 ? 1 : 0;
+    report.high_valences += valence > 7 ? 1 : 0;
   }
   report.base_faces = static_cast<std::uint32_t>(domain.base_faces.size());
   report.collapses = static_cast<std::uint32_t>(domain.collapses.size());

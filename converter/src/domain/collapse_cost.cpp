@@ -16,8 +16,12 @@ constexpr double kMaxAspect = 100.0;
 // Cost factor e^this for each face above valence 6 and, twice, for each below 5.
 constexpr double kValenceWeight = 0.4;
 
-double valence_excess(int valence) {
-  return std::max(0, valence - 6) + 2.0 * std::max(0, 5 - valence);
+// e^(kValenceWeight x excess), 1 for a regular site.
+double valence_factor(const CollapseSite& site) {
+  int excess = std::max(0, site.kept_valence - 6) + 2 * std::max(0, 5 - site.kept_valence);
+  if (site.left_apex != kNone) excess += 2 * std::max(0, 5 - site.left_apex_valence);
+  if (site.right_apex != kNone) excess += 2 * std::max(0, 5 - site.right_apex_valence);
+  return excess == 0 ? 1.0 : std::exp(kValenceWeight * excess);
 }
 
 // 1 for an equilateral triangle, growing with its elongation.
@@ -68,33 +72,40 @@ std::vector<Quadric> vertex_quadrics(const TriangleTopology& topology,
   return quadrics;
 }
 
-double collapse_cost(const TriangleTopology& topology,
-                     const std::vector<Eigen::Vector3d>& positions,
-                     const std::vector<Quadric>& quadrics, const Star& star,
-                     const CollapseSite& site, bool forbid_flips) {
-  const Eigen::Vector3d& from = positions[site.removed];
-  const Eigen::Vector3d& to = positions[site.kept];
-  double area = 0, aspect = 1, turn = 1;
+void CollapseCost::visit(const TriangleTopology& topology, const Star& star) {
+  sides_.clear();
   for (const auto& [face, corner] : star.corners) {
-    if (face == site.left || face == site.right) continue;
-    const Eigen::Vector3d& p = positions[topology.faces[face][kNext[corner]]];
-    const Eigen::Vector3d& q = positions[topology.faces[face][kPrev[corner]]];
-    const Eigen::Vector3d before = (p - from).cross(q - from), after = (p - to).cross(q - to);
-    const double size_before = before.norm(), size_after = after.norm();
-    const double cosine = before.dot(after);
-    if (forbid_flips && cosine < 0.1 * size_before * size_after)
-      return std::numeric_limits<double>::infinity();
-    turn = std::min(turn, cosine / std::max(size_before * size_after, 1e-300));
-    area += size_after / 2;
-    const double edges = (p - to).squaredNorm() + (q - to).squaredNorm() + (p - q).squaredNorm();
-    aspect = std::max(aspect, aspect_of(edges, size_after / 2));
+    const Triangle& corners = topology.faces[face];
+    const Eigen::Vector3d& from = positions_[corners[corner]];
+    Side& side = sides_.emplace_back();
+    side.face = face;
+    side.p = positions_[corners[kNext[corner]]];
+    side.q = positions_[corners[kPrev[corner]]];
+    side.area = (side.p - from).cross(side.q - from);
+    side.size = side.area.norm();
+    side.squared_length = (side.p - side.q).squaredNorm();
   }
-  double excess = valence_excess(site.kept_valence);
-  if (site.left_apex != kNone) excess += 2.0 * std::max(0, 5 - site.left_apex_valence);
-  if (site.right_apex != kNone) excess += 2.0 * std::max(0, 5 - site.right_apex_valence);
-  const double distance = quadrics[site.removed].at(to) + quadrics[site.kept].at(to);
-  return (distance + kAreaTerm * area * (to - from).squaredNorm()) * aspect * (2.0 - turn) *
-         std::exp(kValenceWeight * excess);
+}
+
+double CollapseCost::of(const CollapseSite& site, const CollapseCaps& caps, double limit) const {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const Eigen::Vector3d& to = positions_[site.kept];
+  const double distance = quadrics_[site.removed].at(to) + quadrics_[site.kept].at(to);
+  const double factor = valence_factor(site);
+  if (distance * factor > limit) return infinite;
+  double area = 0, aspect = 1, turn = 1;
+  for (const Side& side : sides_) {
+    if (side.face == site.left || side.face == site.right) continue;
+    const Eigen::Vector3d to_p = side.p - to, to_q = side.q - to, after = to_p.cross(to_q);
+    const double size = after.norm(), cosine = side.area.dot(after), sizes = side.size * size;
+    if (caps.forbid_flips && cosine < 0.1 * sizes) return infinite;
+    turn = std::min(turn, cosine / std::max(sizes, 1e-300));
+    area += size / 2;
+    const double edges = to_p.squaredNorm() + to_q.squaredNorm() + side.squared_length;
+    aspect = std::max(aspect, aspect_of(edges, size / 2));
+  }
+  const double length = (to - positions_[site.removed]).squaredNorm();
+  return (distance + kAreaTerm * area * length) * aspect * (2.0 - turn) * factor;
 }
 
 }  // namespace zerotree::domain

@@ -17,11 +17,30 @@ std::vector<Quadric> vertex_quadrics(const TriangleTopology& topology,
                                      const std::vector<std::uint8_t>& gone,
                                      const std::vector<Eigen::Vector3d>& positions);
 
-/// Cost of merging the vertex of `star` as `site` says: (quadric + area term) x aspect x
-/// exp(valence excess). Infinite if a face would flip and `forbid_flips`.
-double collapse_cost(const TriangleTopology& topology,
-                     const std::vector<Eigen::Vector3d>& positions,
-                     const std::vector<Quadric>& quadrics, const Star& star,
-                     const CollapseSite& site, bool forbid_flips);
+/// Costs of the collapses of one vertex after the other; holds scratch memory, so one per thread.
+class CollapseCost {
+ public:
+  CollapseCost(const std::vector<Eigen::Vector3d>& positions, const std::vector<Quadric>& quadrics)
+      : positions_(positions), quadrics_(quadrics) {}
+
+  /// Goes to the vertex of `star`.
+  void visit(const TriangleTopology& topology, const Star& star);
+
+  /// Cost of merging the vertex as `site` says: (quadric + area term) x aspect x exp(valence
+  /// excess). Infinite if a face would flip and the caps forbid
+  /// that, or if it is not below `limit`.
+  double of(const CollapseSite& site, const CollapseCaps& caps, double limit) const;
+
+ private:
+  // A face of the star: the side opposite the vertex, and the face's doubled area vector.
+  struct Side {
+    std::uint32_t face;
+    Eigen::Vector3d p, q, area;
+    double size, squared_length;
+  };
+  const std::vector<Eigen::Vector3d>& positions_;
+  const std::vector<Quadric>& quadrics_;
+  std::vector<Side> sides_;
+};
 
 }  // namespace zerotree::domain

@@ -12,67 +12,105 @@ std::uint32_t vertex_at(const TriangleTopology& topology, const Corner& corner, 
   return topology.faces[corner.face][(corner.corner + turn) % 3];
 }
 
+// The faces that the kept vertex gets.
+int count_fan(const Star& star, const CollapseSite& site) {
+  const int gone = (site.left != kNone ? 1 : 0) + (site.right != kNone ? 1 : 0);
+  return static_cast<int>(star.corners.size()) - gone;
+}
+
+bool keeps_fan(const Star& star, const CollapseSite& site, const CollapseCaps& caps) {
+  return site.kept_valence <= std::max(caps.valence, 3) &&
+         count_fan(star, site) <= std::max(1.0, caps.fan_share * site.kept_valence);
+}
+
 }  // namespace
 
-CollapseRules::CollapseRules(const TriangleTopology& topology, const std::vector<VertexKind>& kinds)
-    : topology_(topology), kinds_(kinds), mark_(kinds.size(), 0) {}
-
-int CollapseRules::valence(std::uint32_t vertex) {
-  gather_star(topology_, vertex, other_star_);
-  return static_cast<int>(other_star_.corners.size());
+VertexFans count_fans(const TriangleTopology& topology, const std::vector<std::uint8_t>& gone) {
+  VertexFans fans{std::vector<std::uint32_t>(topology.face_of_vertex.size(), 0),
+                  std::vector<std::uint8_t>(topology.face_of_vertex.size(), 0)};
+  for (std::uint32_t f = 0; f < topology.faces.size(); ++f) {
+    if (gone[f]) continue;
+    const Triangle& corners = topology.faces[f];
+    for (int k = 0; k < 3; ++k) {
+      ++fans.valence[corners[k]];
+      if (topology.adjacent[f][k] == kNone)
+        fans.is_open[corners[k]] = fans.is_open[corners[kNext[k]]] = 1;
+    }
+  }
+  return fans;
 }
 
-int CollapseRules::count_features(std::uint32_t vertex) {
-  gather_star(topology_, vertex, other_star_);
-  int count = other_star_.closed ? 0 : 1;
-  for (const auto& [face, corner] : other_star_.corners)
-    count += is_feature(topology_, face, kPrev[corner]) ? 1 : 0;
-  return count;
+void CollapseRules::visit(std::uint32_t vertex) {
+  vertex_ = vertex;
+  gather_star(topology_, vertex, star_);
+  ring_.clear();
+  for (const Corner& corner : star_.corners) ring_.push_back(vertex_at(topology_, corner, 1));
+  if (!star_.closed) ring_.push_back(vertex_at(topology_, star_.corners.back(), 2));
 }
 
-bool CollapseRules::allows(std::uint32_t removed, const Star& star, std::size_t at, bool last,
-                           const CollapseCaps& caps, CollapseSite& site) {
-  const std::size_t n = star.corners.size();
-  site = {};
-  site.removed = removed;
-  site.kept = vertex_at(topology_, star.corners[at], last ? 2 : 1);
-  const bool has_left = !last, has_right = last || star.closed || at > 0;
-  if (has_left) {
-    site.left = star.corners[at].face;
-    site.left_apex = vertex_at(topology_, star.corners[at], 2);
+CollapseSite CollapseRules::site_along(std::size_t edge) const {
+  const std::size_t n = star_.corners.size();
+  CollapseSite site;
+  site.removed = vertex_;
+  site.kept = ring_[edge];
+  if (edge < n) {
+    site.left = star_.corners[edge].face;
+    site.left_apex = ring_[edge + 1 < ring_.size() ? edge + 1 : 0];
+    site.left_apex_valence = static_cast<int>(fans_.valence[site.left_apex]) - 1;
   }
-  if (has_right) {
-    const Corner& corner = star.corners[last ? at : (at + n - 1) % n];
-    site.right = corner.face;
-    site.right_apex = vertex_at(topology_, corner, 1);
+  if (edge > 0 || star_.closed) {
+    const std::size_t before = edge > 0 ? edge - 1 : n - 1;
+    site.right = star_.corners[before].face;
+    site.right_apex = ring_[before];
+    site.right_apex_valence = static_cast<int>(fans_.valence[site.right_apex]) - 1;
   }
-  if (!is_chain_step(star, site) || !has_link_condition(star, site)) return false;
+  const int gone = (site.left != kNone ? 1 : 0) + (site.right != kNone ? 1 : 0);
+  site.kept_valence = static_cast<int>(fans_.valence[site.kept]) + static_cast<int>(n) - 2 * gone;
+  site.added_irregularity = added_irregularity(site);
+  return site;
+}
 
-  const int gone = (has_left ? 1 : 0) + (has_right ? 1 : 0);
-  gather_star(topology_, site.kept, other_star_);
-  const bool kept_closed = other_star_.closed;
-  site.kept_valence =
-      static_cast<int>(other_star_.corners.size()) - gone + static_cast<int>(n) - gone;
-  if (site.kept_valence < (kept_closed ? 3 : 1)) return false;
-  for (const auto& [apex, apex_valence] : {std::pair{site.left_apex, &site.left_apex_valence},
-                                           std::pair{site.right_apex, &site.right_apex_valence}}) {
-    if (apex == kNone) continue;
-    *apex_valence = valence(apex) - 1;
-    if (*apex_valence < (other_star_.closed ? 3 : 1)) return false;
-  }
-  return leaves_room_at_apex(site.left, site.left_apex) &&
-         leaves_room_at_apex(site.right, site.right_apex) && keeps_caps(star, site, caps);
+int CollapseRules::added_irregularity(const CollapseSite& site) const {
+  int added = 0;
+  const auto change = [&](std::uint32_t vertex, int valence) {
+    if (vertex == kNone || kinds_[vertex] != VertexKind::smooth) return;
+    added += irregularity_of(valence) - irregularity_of(static_cast<int>(fans_.valence[vertex]));
+  };
+  change(site.kept, site.kept_valence);
+  change(site.left_apex, site.left_apex_valence);
+  change(site.right_apex, site.right_apex_valence);
+  if (kinds_[site.removed] == VertexKind::smooth)
+    added -= irregularity_of(static_cast<int>(fans_.valence[site.removed]));
+  return added;
+}
+
+bool CollapseRules::allows(const CollapseSite& site, const CollapseCaps& caps) {
+  return is_chain_step(site) && has_link_condition(site) &&
+         leaves_room_at_apex(site.left, site.left_apex) &&
+         leaves_room_at_apex(site.right, site.right_apex) && keeps_sectors(site, caps);
+}
+
+bool CollapseRules::keeps_valences(const CollapseSite& site, const CollapseCaps& caps) const {
+  const auto enough = [&](std::uint32_t vertex, int valence) {
+    return vertex == kNone || valence >= (fans_.is_open[vertex] ? 1 : 3);
+  };
+  if (!enough(site.kept, site.kept_valence) || !enough(site.left_apex, site.left_apex_valence) ||
+      !enough(site.right_apex, site.right_apex_valence))
+    return false;
+  if (site.added_irregularity > caps.irregularity) return false;
+  if (kinds_[site.kept] == VertexKind::smooth) return keeps_fan(star_, site, caps);
+  return count_fan(star_, site) <= 2 * std::max(caps.sector, caps.valence);
 }
 
 // A chain vertex moves along its chain only, and leaves a face on each side of it: otherwise the
 // undo would put all three corners of a triangle on one straight edge.
-bool CollapseRules::is_chain_step(const Star& star, const CollapseSite& site) const {
+bool CollapseRules::is_chain_step(const CollapseSite& site) const {
   if (kinds_[site.removed] == VertexKind::corner) return false;
   if (kinds_[site.removed] == VertexKind::smooth) return true;
   const std::uint32_t face = site.left != kNone ? site.left : site.right;
   const int corner = corner_of(topology_.faces[face], site.removed);
   if (!is_feature(topology_, face, site.left != kNone ? corner : kPrev[corner])) return false;
-  for (const auto& [f, k] : star.corners) {
+  for (const auto& [f, k] : star_.corners) {
     if (f == site.left && is_feature(topology_, f, kPrev[k])) return false;
     if (f == site.right && is_feature(topology_, f, k)) return false;
   }
@@ -80,25 +118,18 @@ bool CollapseRules::is_chain_step(const Star& star, const CollapseSite& site) co
 }
 
 // Dey et al. 1999: the links of both ends share nothing but the link of the edge.
-bool CollapseRules::has_link_condition(const Star& star, const CollapseSite& site) {
-  ++stamp_;
-  const auto mark_ring = [&](const Corner& c) {
-    mark_[vertex_at(topology_, c, 1)] = stamp_;
-    mark_[vertex_at(topology_, c, 2)] = stamp_;
-  };
-  std::ranges::for_each(star.corners, mark_ring);
+bool CollapseRules::has_link_condition(const CollapseSite& site) {
+  // An inner edge between two boundary vertices would pinch the surface.
+  if (!star_.closed && fans_.is_open[site.kept] && site.left != kNone && site.right != kNone)
+    return false;
   gather_star(topology_, site.kept, other_star_);
   const auto is_common = [&](std::uint32_t v) {
-    return mark_[v] == stamp_ && v != site.left_apex && v != site.right_apex;
+    return v != site.left_apex && v != site.right_apex &&
+           std::ranges::find(ring_, v) != ring_.end();
   };
-  for (const Corner& c : other_star_.corners) {
-    if (vertex_at(topology_, c, 1) != site.removed && is_common(vertex_at(topology_, c, 1)))
-      return false;
-    if (vertex_at(topology_, c, 2) != site.removed && is_common(vertex_at(topology_, c, 2)))
-      return false;
-  }
-  // An inner edge between two boundary vertices would pinch the surface.
-  return star.closed || other_star_.closed || site.left == kNone || site.right == kNone;
+  for (const Corner& corner : other_star_.corners)
+    if (is_common(vertex_at(topology_, corner, 1))) return false;
+  return other_star_.closed || !is_common(vertex_at(topology_, other_star_.corners.back(), 2));
 }
 
 // Faces around `vertex` from `face` (not counted) to the next feature.
@@ -124,15 +155,20 @@ bool CollapseRules::leaves_room_at_apex(std::uint32_t gone, std::uint32_t apex) 
   return count_to_feature(gone, apex, true) + count_to_feature(gone, apex, false) >= kLeastSector;
 }
 
-bool CollapseRules::keeps_caps(const Star& star, const CollapseSite& site,
-                               const CollapseCaps& caps) {
-  const int gone = (site.left != kNone ? 1 : 0) + (site.right != kNone ? 1 : 0);
-  const int fan = static_cast<int>(star.corners.size()) - gone;
-  // The end of a crease has no sectors to keep apart.
-  if (kinds_[site.kept] == VertexKind::smooth || count_features(site.kept) == 1)
-    return site.kept_valence <= std::max(caps.valence, 3) &&
-           fan <= std::max(1.0, caps.fan_share * site.kept_valence);
+// The end of a crease has no sectors to keep apart.
+bool CollapseRules::is_like_smooth(std::uint32_t vertex) {
+  if (kinds_[vertex] != VertexKind::corner) return false;
+  gather_star(topology_, vertex, other_star_);
+  int features = other_star_.closed ? 0 : 1;
+  for (const auto& [face, corner] : other_star_.corners)
+    features += is_feature(topology_, face, kPrev[corner]) ? 1 : 0;
+  return features == 1;
+}
 
+bool CollapseRules::keeps_sectors(const CollapseSite& site, const CollapseCaps& caps) {
+  if (kinds_[site.kept] == VertexKind::smooth) return true;
+  if (is_like_smooth(site.kept)) return keeps_fan(star_, site, caps);
+  const int fan = count_fan(star_, site);
   const int left = count_to_feature(site.left, site.kept, true);
   const int right = count_to_feature(site.right, site.kept, false);
   const bool is_corner = kinds_[site.kept] == VertexKind::corner;

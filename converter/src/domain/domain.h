@@ -59,6 +59,9 @@ struct DomainReport {
   /// Of the base mesh; faces around a vertex.
   std::uint32_t min_valence = 0;
   std::uint32_t max_valence = 0;
+  /// Smooth vertices of the base mesh of valence below 5 and above 7.
+  std::uint32_t low_valences = 0;
+  std::uint32_t high_valences = 0;
 };
 
 /// A mesh taken apart. `mesh` is the input, first as it was, then the vertices and faces of the
@@ -77,7 +80,7 @@ struct Domain {
 /// Finds the features of `mesh` (clean, oriented, manifold; any genus, boundaries, components)
 /// and decimates it to a base mesh: a simplicial complex without duplicate edges, of the same
 /// topology. Throws Error(refused_topology) if the mesh is no manifold.
-/// Cost: about 10 microseconds and 400 bytes per vertex.
+/// Cost: about 8 microseconds and 250 bytes per vertex; the most of it on all threads of oneTBB.
 Domain build_domain(const TriangleMesh& mesh, const DomainOptions& options,
                     const Progress& progress);
 

@@ -1,5 +1,6 @@
 #include "domain/triangle_topology.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "mesh/error.h"
@@ -72,20 +73,23 @@ void gather_star(const TriangleTopology& topology, std::uint32_t vertex, Star& s
   star.corners.clear();
   const std::uint32_t first = topology.face_of_vertex[vertex];
   std::uint32_t face = first;
-  // Clockwise to the boundary, where an open star begins.
-  while (true) {
-    const std::uint32_t before = topology.adjacent[face][corner_of(topology.faces[face], vertex)];
-    star.closed = before == first;
-    if (before == kNone || star.closed) break;
-    face = before;
-  }
-  if (star.closed) face = first;
-  const std::uint32_t start = face;
   do {
     const int corner = corner_of(topology.faces[face], vertex);
     star.corners.push_back({face, corner});
     face = topology.adjacent[face][kPrev[corner]];
-  } while (face != kNone && face != start);
+  } while (face != kNone && face != first);
+  star.closed = face == first;
+  if (star.closed) return;
+  // An open star begins at the boundary: the faces clockwise of the first come before it.
+  const std::size_t from_first = star.corners.size();
+  for (face = topology.adjacent[first][star.corners.front().corner]; face != kNone;) {
+    const int corner = corner_of(topology.faces[face], vertex);
+    star.corners.push_back({face, corner});
+    face = topology.adjacent[face][corner];
+  }
+  const auto middle = star.corners.begin() + static_cast<std::ptrdiff_t>(from_first);
+  std::reverse(middle, star.corners.end());
+  std::rotate(star.corners.begin(), middle, star.corners.end());
 }
 
 }  // namespace zerotree::domain

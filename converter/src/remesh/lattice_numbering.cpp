@@ -1,5 +1,6 @@
 #include "remesh/lattice_numbering.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -49,7 +50,10 @@ Level quadrisect(const Level& coarse) {
     fine.edge_start[3 * faces + 2 * e] = coarse.vertex_count + e;
     fine.edge_start[3 * faces + 2 * e + 1] = coarse.vertex_count + e;
   }
-  fine.corners.reserve(4 * faces);
+  fine.corners.reserve(4 * std::size_t{faces});
+  fine.edges.reserve(4 * std::size_t{faces});
+  fine.origin.reserve(4 * std::size_t{faces});
+  fine.step.reserve(4 * std::size_t{faces});
   for (std::uint32_t f = 0; f < faces; ++f) {
     const auto& v = coarse.corners[f];
     const auto& e = coarse.edges[f];
@@ -80,11 +84,15 @@ Level quadrisect(const Level& coarse) {
 LatticeNumbering number_lattices(const bitstream::BaseTopology& base, int levels) {
   LatticeNumbering numbering;
   numbering.levels = levels;
-  Level level = base_level(base, static_cast<std::int32_t>(numbering.steps()));
-  for (int j = 0; j < levels; ++j) level = quadrisect(level);
-  numbering.vertex_count = level.vertex_count;
   numbering.vertices.resize(base.triangles.size() * numbering.points_per_triangle());
-  const std::uint32_t faces_per_triangle = 1u << (2 * levels);
+  // The last level's faces, the most by far, are never made: its vertices lie at the corners and on
+  // the edges of the faces before.
+  const int built = std::max(levels - 1, 0);
+  Level level = base_level(base, static_cast<std::int32_t>(numbering.steps()));
+  for (int j = 0; j < built; ++j) level = quadrisect(level);
+  const auto edges = static_cast<std::uint32_t>(level.edge_start.size());
+  numbering.vertex_count = level.vertex_count + (levels > 0 ? edges : 0);
+  const std::uint32_t faces_per_triangle = 1u << (2 * built);
   for (std::uint32_t f = 0; f < level.corners.size(); ++f) {
     const std::size_t first = f / faces_per_triangle * numbering.points_per_triangle();
     const auto set = [&](std::int32_t i, std::int32_t j, std::uint32_t vertex) {
@@ -92,9 +100,14 @@ LatticeNumbering number_lattices(const bitstream::BaseTopology& base, int levels
                          static_cast<std::size_t>(i)] = vertex;
     };
     const auto [x, y] = level.origin[f];
+    const std::int32_t step = level.step[f];
     set(x, y, level.corners[f][0]);
-    set(x + level.step[f], y, level.corners[f][1]);
-    set(x, y + level.step[f], level.corners[f][2]);
+    set(x + step, y, level.corners[f][1]);
+    set(x, y + step, level.corners[f][2]);
+    if (levels == 0) continue;
+    set(x + step / 2, y, level.vertex_count + level.edges[f][0]);
+    set(x + step / 2, y + step / 2, level.vertex_count + level.edges[f][1]);
+    set(x, y + step / 2, level.vertex_count + level.edges[f][2]);
   }
   return numbering;
 }

@@ -26,7 +26,7 @@ struct LatticeNumbering {
   }
 };
 
-/// Numbers the vertices. 4 to 8 bytes a finest vertex are kept, about ten times that in passing.
+/// Numbers the vertices. 4 to 8 bytes a finest vertex are kept, about 25 more in passing.
 LatticeNumbering number_lattices(const bitstream::BaseTopology& base, int levels);
 
 /// Vertices after `levels` quadrisections.

@@ -6,8 +6,8 @@
 #include "domain/base_size.h"
 #include "mesh/error.h"
 #include "remesh/lattice_numbering.h"
+#include "remesh/relaxation_sweeps.h"
 #include "remesh/vertex_insertion.h"
-#include "remesh/vertex_relaxation.h"
 
 namespace zerotree::remesh {
 namespace {
@@ -17,6 +17,8 @@ constexpr int kSweeps = 2;
 // ... and when all vertices are there: on meshes of few vertices, CAD-like ones, this makes the
 // tangential details a fifth smaller; more of them shift stretch to where the surface bends.
 constexpr int kFinalSweeps = 4;
+// Newton steps for the neighbours of a vertex that has little room.
+constexpr int kStepsOfSqueezed = 3;
 // The undo may ask for so many more base vertices before the mesh is given up.
 constexpr std::uint32_t kMaxRebuilds = 300;
 // After so many, each goes back over so many collapses more than the one before.
@@ -70,6 +72,21 @@ Parameterisation parameterise_somehow(const domain::Domain& domain, const Progre
   return result;
 }
 
+// Gives the vertices around a squeezed one more room.
+void relax_ring(ConeCharts& charts, const domain::Star& star, VertexRelaxation& relaxation) {
+  for (const auto& [face, corner] : star.corners)
+    relaxation.relax(charts, charts.topology.faces[face][kNext[corner]], kStepsOfSqueezed);
+  const auto& [face, corner] = star.corners.front();
+  relaxation.relax(charts, charts.topology.faces[face][corner], kStepsOfSqueezed);
+}
+
+// Sweeps come when half of the vertices are there, a quarter, and so on down to the base.
+bool is_sweep_due(std::size_t inserted, std::size_t all, std::size_t base_vertices) {
+  for (std::size_t due = all / 2; due >= base_vertices; due /= 2)
+    if (due == inserted) return true;
+  return false;
+}
+
 }  // namespace
 
 Parameterisation parameterise(const domain::Domain& domain, const Progress& progress) {
@@ -77,27 +94,25 @@ Parameterisation parameterise(const domain::Domain& domain, const Progress& prog
   result.charts = build_base_charts(domain, result.base);
   const std::vector<Eigen::Vector3d>& positions = domain.mesh.positions;
   VertexInsertion insertion(result.base, positions, domain.kinds);
-  VertexRelaxation relaxation(result.base, positions, domain.kinds);
+  RelaxationSweeps relaxation(result.base, positions, domain.kinds);
+  VertexRelaxation single_relaxation(result.base, positions, domain.kinds);
+  domain::Star neighbours;
   const std::size_t collapses = domain.collapses.size();
-  std::size_t next_sweep = result.base.mesh_vertex.size();
+  const std::size_t base_vertices = std::max<std::size_t>(result.base.mesh_vertex.size(), 1);
   for (std::size_t i = 0; i < collapses; ++i) {
     if (!insertion.insert(result.charts, domain.collapses[collapses - 1 - i])) {
       result.stuck = collapses - i;
       return result;
     }
+    if (insertion.is_squeezed()) {
+      neighbours = insertion.star();
+      relax_ring(result.charts, neighbours, single_relaxation);
+    }
     const bool is_last = i + 1 == collapses;
-    if (i + 1 < next_sweep && !is_last) continue;
+    if (!is_last && !is_sweep_due(i + 1, collapses, base_vertices)) continue;
     report_progress(progress, "parameterising",
                     static_cast<double>(i) / static_cast<double>(collapses));
-    next_sweep = 2 * next_sweep;
-    for (int sweep = 0; sweep < (is_last ? kFinalSweeps : kSweeps); ++sweep) {
-      for (std::uint32_t v : std::vector<std::uint32_t>(result.base.mesh_vertex))
-        relaxation.relax(result.charts, v, 1);
-      for (std::size_t j = 0; j <= i; ++j) {
-        const domain::CollapseRecord& collapse = domain.collapses[collapses - 1 - j];
-        relaxation.relax(result.charts, collapse.removed, 1);
-      }
-    }
+    relaxation.run(result.charts, is_last ? kFinalSweeps : kSweeps);
   }
   result.cone_swaps = insertion.cone_swaps();
   return result;

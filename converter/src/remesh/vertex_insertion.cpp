@@ -12,8 +12,9 @@ namespace {
 constexpr int kNewtonSteps = 3;
 // A first guess is good if no triangle has less than this share of the mean area.
 constexpr double kGoodShare = 0.02;
-// Faces smaller than this (a base triangle is 1) are within reach of rounding.
-constexpr double kLeastArea = 1e-15;
+// Faces lower than this are within reach of rounding, which moves points by 2e-16 (a base edge is
+// 1). Small faces are not: where a handle is squeezed they get down to an area of 1e-18.
+constexpr double kLeastHeight = 4e-15;
 
 double ring_area(const Ring& ring, const Eigen::Vector2d& p) {
   double sum = 0;
@@ -114,7 +115,9 @@ void VertexInsertion::unfold(const ConeCharts& charts) {
 
   ring_.points.clear();
   for (const LatticePoint& point : ring_lattice_) ring_.points.push_back(to_plane(point));
+  // Around a cone only can the sector fill a whole turn.
   sector_.angle = 0;
+  if (charts.vertices[sector_.fixed].cone == kNone) return;
   const Eigen::Vector2d centre = to_plane(fixed_point);
   const std::size_t first = sector_.first_gap != kNone ? 1 : 0;
   for (std::size_t i = first; i < first + sector_.faces.size(); ++i) {
@@ -125,7 +128,8 @@ void VertexInsertion::unfold(const ConeCharts& charts) {
 
 bool VertexInsertion::place(ConeCharts& charts) {
   const VertexChart chart_before = charts.vertices[sector_.free];
-  std::vector<LatticeIsometry> before;
+  std::vector<LatticeIsometry>& before = transitions_before_;
+  before.clear();
   for (const auto& [face, corner] : sector_.faces)
     before.push_back(charts.transitions[face][corner]);
   energy_.prepare(ring_, positions_[sector_.free]);
@@ -260,9 +264,15 @@ void VertexInsertion::set_transitions(ConeCharts& charts, const LatticeIsometry&
 
 bool VertexInsertion::is_positive(const ConeCharts& charts, std::uint32_t vertex) {
   domain::gather_star(charts.topology, vertex, star_);
+  least_area_ = 1;
   return std::ranges::all_of(star_.corners, [&](const domain::Corner& at) {
-    return lattice_area(charts.corner_point(at.face, 0), charts.corner_point(at.face, 1),
-                        charts.corner_point(at.face, 2)) > kLeastArea;
+    const LatticePoint a = charts.corner_point(at.face, 0), b = charts.corner_point(at.face, 1),
+                       c = charts.corner_point(at.face, 2);
+    const double longest =
+        std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+    const double area = lattice_area(a, b, c);
+    least_area_ = std::min(least_area_, area);
+    return area > kLeastHeight * longest;
   });
 }
 

@@ -20,6 +20,12 @@ class VertexInsertion {
   /// whether there was room either way; if not, `charts` is no longer usable.
   bool insert(ConeCharts& charts, const domain::CollapseRecord& collapse);
 
+  /// After an insertion: the faces around the vertex are so small that those that come yet may find
+  /// no room among them.
+  bool is_squeezed() const { return least_area_ < kSqueezedArea; }
+  /// The faces around the vertex inserted last.
+  const domain::Star& star() const { return star_; }
+
   /// How often a vertex took a cone's place.
   std::uint32_t cone_swaps() const { return cone_swaps_; }
 
@@ -32,7 +38,7 @@ class VertexInsertion {
     std::vector<domain::Corner> faces;
     std::vector<LatticeIsometry> charts;  // of each face, to that of the first
     std::size_t chain = kNone;            // ring entry of the free vertex's other chain neighbour
-    double angle = 0;
+    double angle = 0;                     // around a cone
   };
 
   void unfold(const ConeCharts& charts);
@@ -49,12 +55,16 @@ class VertexInsertion {
   BaseDomain& base_;
   const std::vector<Eigen::Vector3d>& positions_;
   const std::vector<domain::VertexKind>& kinds_;
+  static constexpr double kSqueezedArea = 1e-9;  // a base triangle is 1
+
   std::uint32_t cone_swaps_ = 0;
+  double least_area_ = 1;
   Sector sector_;
   std::vector<std::uint32_t> fan_;
   domain::Star star_;
   Ring ring_;
   std::vector<LatticePoint> ring_lattice_;
+  std::vector<LatticeIsometry> transitions_before_;
   StretchEnergy energy_;
 };
 

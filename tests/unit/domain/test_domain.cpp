@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -179,6 +180,63 @@ TEST(Domain, IsTheSameTwice) {
   const Domain a = build_domain(mesh, {}, {}), b = build_domain(mesh, {}, {});
   EXPECT_EQ(a.base_faces, b.base_faces);
   EXPECT_EQ(a.topology.faces, b.topology.faces);
+}
+
+TEST(Domain, IsTheSameForAnyNumberOfThreads) {
+  const TriangleMesh mesh = test::add_noise(test::sphere(5), 0.1, 3);
+  DomainOptions options;
+  options.base_vertices = 40;
+  const auto with_threads = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return build_domain(mesh, options, {});
+  };
+  const Domain one = with_threads(1), two = with_threads(2);
+  ASSERT_EQ(one.collapses.size(), two.collapses.size());
+  for (std::size_t i = 0; i < one.collapses.size(); ++i) {
+    ASSERT_EQ(one.collapses[i].removed, two.collapses[i].removed);
+    ASSERT_EQ(one.collapses[i].kept, two.collapses[i].kept);
+  }
+  EXPECT_EQ(one.topology.faces, two.topology.faces);
+}
+
+TEST(Domain, GivesSmoothVerticesTheValencesOfTheWavelets) {
+  for (const std::uint32_t base_vertices : {60u, 120u, 300u}) {
+    DomainOptions options;
+    options.base_vertices = base_vertices;
+    options.crease_angle_degrees = 180;
+    const TriangleMesh mesh = test::add_noise(test::sphere(5), 0.1, base_vertices);
+    const Domain domain = build_domain(mesh, options, {});
+    EXPECT_EQ(domain.report.base_vertices, base_vertices);
+    EXPECT_EQ(domain.report.low_valences, 0u);
+    EXPECT_EQ(domain.report.high_valences, 0u);
+    EXPECT_GE(domain.report.min_valence, 5u);
+    EXPECT_LE(domain.report.max_valence, 7u);
+  }
+}
+
+// The collapses of a pass must not depend on each other: undone from the last to the first, every
+// mesh on the way is a manifold again.
+TEST(Domain, UndoesManyCollapsesThroughManifolds) {
+  DomainOptions options;
+  options.base_vertices = 12;
+  options.crease_angle_degrees = 180;
+  const TriangleMesh mesh = test::add_noise(test::sphere(5), 0.3, 5);
+  Domain domain = build_domain(mesh, options, {});
+  std::vector<std::uint32_t> fan;
+  for (std::size_t i = domain.collapses.size(); i-- > 0;) {
+    undo_collapse(domain.topology, domain.collapses[i], fan);
+    domain.collapses.pop_back();
+    if (i % 1024 != 0) continue;
+    domain.base_faces.clear();
+    std::vector<std::uint8_t> removed(domain.topology.faces.size(), 0);
+    for (const CollapseRecord& collapse : domain.collapses)
+      removed[collapse.left] = removed[collapse.right] = 1;
+    for (std::uint32_t f = 0; f < removed.size(); ++f)
+      if (!removed[f]) domain.base_faces.push_back(f);
+    EXPECT_EQ(base_topology(domain).face_of_vertex.size(),
+              domain.kinds.size() - domain.collapses.size());
+  }
+  EXPECT_EQ(domain.topology.faces, mesh.triangles);
 }
 
 }  // namespace

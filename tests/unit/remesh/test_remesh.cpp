@@ -1,6 +1,7 @@
 #include "remesh/remesh.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "measure/surface_distance.h"
 #include "measure/surface_index.h"
@@ -129,6 +130,18 @@ TEST(Remesh, IsTheSameTwice) {
   const RemeshResult a = once(), b = once();
   EXPECT_EQ(a.mesh.positions, b.mesh.positions);
   EXPECT_EQ(a.mesh.base.triangles, b.mesh.base.triangles);
+}
+
+TEST(Remesh, IsTheSameForAnyNumberOfThreads) {
+  const TriangleMesh mesh = test::add_noise(test::sphere(5), 0.1, 3);
+  domain::DomainOptions options;
+  options.base_vertices = 40;
+  const domain::Domain domain = domain::build_domain(mesh, options, {});
+  const auto with_threads = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return remesh(domain, {}, {}).mesh.positions;
+  };
+  EXPECT_EQ(with_threads(1), with_threads(2));
 }
 
 }  // namespace
