@@ -64,6 +64,8 @@ SurfaceModel build_surface_model(const TriangleMesh& mesh, const ConvertOptions&
   const relax::RelaxedMesh relaxed = clock.run("relax", [&] {
     return relax::relax(domain, remeshed.laid_out, remeshed.report.levels, {}, progress);
   });
+  report.rejected_moves = relaxed.report.rejected_moves;
+  report.negative_triangles = relaxed.report.negative_triangles;
 
   SurfaceModel model;
   model.base = relaxed.mesh.base;

@@ -77,6 +77,8 @@ nlohmann::ordered_json to_json(const ConvertReport& r) {
         {"finestVertices", r.finest_vertices},
         {"coneSwaps", r.cone_swaps},
         {"error", r.remeshing_error},
+        {"rejectedMoves", r.rejected_moves},
+        {"negativeTriangles", r.negative_triangles},
         {"levelDetails", levels_to_json(r.level_details)},
         {"discretisationError", r.discretisation_error},
         {"remark", r.remesh_remark}}},

@@ -81,6 +81,10 @@ struct ConvertReport {
   /// Why the remeshing error is far above that; empty if it is not.
   std::string remesh_remark;
 
+  /// Moves of the relaxation that would have turned a triangle over and were taken back.
+  std::uint64_t rejected_moves = 0;
+  /// Triangles of the finest level that are turned over in the parameter domain.
+  std::uint64_t negative_triangles = 0;
   /// Of the details that lead to level 1, 2, ...
   std::vector<LevelDetails> level_details;
 
