@@ -79,6 +79,8 @@ nlohmann::ordered_json to_json(const ConvertReport& r) {
         {"error", r.remeshing_error},
         {"rejectedMoves", r.rejected_moves},
         {"negativeTriangles", r.negative_triangles},
+        {"turnedFaces", r.turned_faces},
+        {"pinnedLimbs", r.pinned_limbs},
         {"levelDetails", levels_to_json(r.level_details)},
         {"discretisationError", r.discretisation_error},
         {"remark", r.remesh_remark}}},
