@@ -14,7 +14,7 @@ constexpr double kAreaTerm = 2e-3;
 // Slivers beyond this aspect are all equally bad.
 constexpr double kMaxAspect = 100.0;
 // Share of a patch's area that a quadric counts besides its own.
-constexpr double kLimbShare = 0.3;
+constexpr double kLimbShare = 0.1;
 // Cost factor e^this for each face above valence 6 and, twice, for each below 5.
 constexpr double kValenceWeight = 0.4;
 

@@ -1,14 +1,19 @@
 #include "fit/turned_faces.h"
 
 #include <Eigen/Geometry>
+#include <limits>
+#include <utility>
 
 #include "relax/parallel_loop.h"
 
 namespace zerotree::fit {
 namespace {
 
-// Rounds of smoothing; each reaches one ring further where faces stay turned.
-constexpr int kMostRounds = 30;
+// Rounds of smoothing at most, and rounds without gain after which it is given up.
+constexpr int kMostRounds = 12;
+constexpr int kPatience = 4;
+// How far a vertex goes towards the mean of its neighbours.
+constexpr double kSmoothing = 0.5;
 
 Points smooth_normals(const relax::InputSurface& input) {
   Points normals(input.mesh.positions.size(), Eigen::Vector3d::Zero());
@@ -25,34 +30,43 @@ bool is_turned(const relax::InputSurface& input, const Points& normals,
                const Triangle& t) {
   const Eigen::Vector3d normal = (limit[t[1]] - limit[t[0]]).cross(limit[t[2]] - limit[t[0]]);
   const Eigen::Vector3d centre = (limit[t[0]] + limit[t[1]] + limit[t[2]]) / 3;
+  double nearest = std::numeric_limits<double>::infinity();
+  bool turned = false;
   for (std::uint32_t v : t) {
     if (foot_points[v].edge >= 0) continue;
     const relax::SurfacePoint at =
         relax::walk_on_surface(input, foot_points[v], centre - input.position(foot_points[v]));
+    const double distance = (centre - input.position(at)).squaredNorm();
+    if (distance >= nearest) continue;
+    nearest = distance;
     const Triangle& corners = input.topology.faces[at.face];
-    const Eigen::Vector3d there = at.weights[0] * normals[corners[0]] +
-                                  at.weights[1] * normals[corners[1]] +
-                                  at.weights[2] * normals[corners[2]];
-    // Seen from one corner with the input's own face or its smooth normal: noise is no turn.
-    return normal.dot(there) < 0 && normal.dot(input.face_normal(at.face)) < 0;
+    const Eigen::Vector3d smooth = at.weights[0] * normals[corners[0]] +
+                                   at.weights[1] * normals[corners[1]] +
+                                   at.weights[2] * normals[corners[2]];
+    // By the input's own face and by its smooth normal: noise is no turn.
+    turned = normal.dot(smooth) < 0 && normal.dot(input.face_normal(at.face)) < 0;
   }
-  return false;
+  return turned;
 }
 
-// Every marked vertex goes to the mean of its neighbours.
-void smooth_marked(const relax::SubdividedLevel& finest,
-                   const std::vector<relax::SurfacePoint>& foot_points,
-                   const std::vector<std::uint8_t>& marked, Points& points) {
+// The vertices of the turned faces go half the way to the mean of their neighbours.
+void smooth_faces(const relax::SubdividedLevel& finest,
+                  const std::vector<relax::SurfacePoint>& foot_points,
+                  const std::vector<std::uint32_t>& turned, Points& points) {
+  std::vector<std::uint8_t> marked(points.size(), 0);
+  for (std::uint32_t f : turned)
+    for (std::uint32_t v : finest.triangles[f]) marked[v] = foot_points[v].edge < 0;
   Points sums(points.size(), Eigen::Vector3d::Zero());
   std::vector<std::uint32_t> counts(points.size(), 0);
   for (const auto& [a, b] : finest.edges) {
+    if (!marked[a] && !marked[b]) continue;
     sums[a] += points[b];
     sums[b] += points[a];
     ++counts[a];
     ++counts[b];
   }
   for (std::size_t v = 0; v < points.size(); ++v)
-    if (marked[v] && foot_points[v].edge < 0) points[v] = sums[v] / counts[v];
+    if (marked[v]) points[v] += kSmoothing * (sums[v] / counts[v] - points[v]);
 }
 
 }  // namespace
@@ -75,16 +89,23 @@ std::vector<std::uint32_t> find_turned_faces(const relax::InputSurface& input,
 std::uint32_t turn_faces_back(const relax::InputSurface& input,
                               const relax::SubdividedLevel& finest, const LimitOperator& limit,
                               const std::vector<relax::SurfacePoint>& foot_points, Points& points) {
-  std::vector<std::uint8_t> marked(points.size(), 0);
-  Points at;
-  for (int round = 0;; ++round) {
+  Points at, best = points;
+  std::size_t least = 0;
+  int without_gain = 0;
+  for (int round = 0; round <= kMostRounds; ++round) {
     limit.apply(points, at);
     const std::vector<std::uint32_t> turned = find_turned_faces(input, finest, foot_points, at);
-    if (turned.empty() || round == kMostRounds) return static_cast<std::uint32_t>(turned.size());
-    for (std::uint32_t f : turned)
-      for (std::uint32_t v : finest.triangles[f]) marked[v] = 1;
-    smooth_marked(finest, foot_points, marked, points);
+    const bool is_better = round == 0 || turned.size() < least;
+    without_gain = is_better ? 0 : without_gain + 1;
+    if (is_better) {
+      least = turned.size();
+      best = points;
+    }
+    if (turned.empty() || without_gain == kPatience) break;
+    smooth_faces(finest, foot_points, turned, points);
   }
+  points = std::move(best);
+  return static_cast<std::uint32_t>(least);
 }
 
 }  // namespace zerotree::fit

@@ -17,8 +17,8 @@ std::vector<std::uint32_t> find_turned_faces(const relax::InputSurface& input,
                                              const std::vector<relax::SurfacePoint>& foot_points,
                                              const Points& limit);
 
-/// Smooths the control points of turned faces until none is left or nothing helps. Returns how many
-/// are left.
+/// Smooths the control points of turned faces, a little and only there, until none is left or
+/// nothing helps. Returns how many are left.
 std::uint32_t turn_faces_back(const relax::InputSurface& input,
                               const relax::SubdividedLevel& finest, const LimitOperator& limit,
                               const std::vector<relax::SurfacePoint>& foot_points, Points& points);

@@ -14,7 +14,9 @@ constexpr int kMostRounds = 12;
 constexpr double kSqueezed = 4;
 // A round pins at most one vertex for so many of the base.
 constexpr std::size_t kBasePerPin = 40;
-// Give up after so many rounds without gain.
+// More pins are worth it if they lower the energy to this share; give up after so many rounds that
+// did not.
+constexpr double kGain = 0.9;
 constexpr int kPatience = 5;
 
 // Surface and domain area around a vertex.
@@ -93,8 +95,9 @@ std::vector<std::uint32_t> pin_limbs(domain::Domain& domain, const Progress& pro
       options.pinned_vertices.push_back(domain.collapses[coarse.stuck - 1].removed);
     } else {
       const SpreadReport spread = measure_spread(domain, coarse, keep, most);
-      without_gain = spread.energy < least ? 0 : without_gain + 1;
-      if (spread.energy < least) {
+      const bool is_gain = spread.energy < kGain * least;
+      without_gain = is_gain ? 0 : without_gain + 1;
+      if (is_gain) {
         least = spread.energy;
         best = options.pinned_vertices;
       }
