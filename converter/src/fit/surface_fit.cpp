@@ -40,8 +40,8 @@ std::vector<SmoothnessPenalty> make_penalties(const relax::RelaxedMesh& relaxed,
   SmoothnessWeights weights = options.smoothness;
   const auto levels = static_cast<int>(relaxed.levels.size()) - 1;
   for (int l = levels; l > 0 && l > levels - options.smooth_levels; --l) {
-    penalties.emplace_back(relaxed.levels[static_cast<std::size_t>(l - 1)], normals, points,
-                           weights);
+    penalties.emplace_back(relaxed.mesh.base, relaxed.levels[static_cast<std::size_t>(l - 1)],
+                           normals, points, weights);
     weights.normal = 0;
   }
   return penalties;
