@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "relax/parallel_loop.h"
@@ -12,6 +13,8 @@ namespace {
 // Rounds of smoothing at most, and rounds without gain after which it is given up.
 constexpr int kMostRounds = 12;
 constexpr int kPatience = 4;
+// Smoothing is felt so many rings away.
+constexpr int kWatchedRings = 3;
 // How far a vertex goes towards the mean of its neighbours.
 constexpr double kSmoothing = 0.5;
 
@@ -49,6 +52,39 @@ bool is_turned(const relax::InputSurface& input, const Points& normals,
   return turned;
 }
 
+std::vector<std::uint32_t> turned_among(const relax::InputSurface& input, const Points& normals,
+                                        const std::vector<relax::SurfacePoint>& foot_points,
+                                        const Points& limit, const relax::SubdividedLevel& finest,
+                                        const std::vector<std::uint32_t>& faces) {
+  std::vector<std::uint8_t> flags(faces.size());
+  relax::for_each_index(faces.size(), [&](std::size_t i) {
+    flags[i] = is_turned(input, normals, foot_points, limit, finest.triangles[faces[i]]);
+  });
+  std::vector<std::uint32_t> turned;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    if (flags[i]) turned.push_back(faces[i]);
+  return turned;
+}
+
+// The faces within `rings` rings of vertices around the given ones.
+std::vector<std::uint32_t> faces_near(const relax::SubdividedLevel& finest,
+                                      const std::vector<std::uint32_t>& faces, int rings) {
+  std::vector<std::uint8_t> near(finest.vertex_count, 0);
+  for (std::uint32_t f : faces)
+    for (std::uint32_t v : finest.triangles[f]) near[v] = 1;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::vector<std::uint8_t> inner = near;
+    for (const auto& [a, b] : finest.edges)
+      if (inner[a] || inner[b]) near[a] = near[b] = 1;
+  }
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t f = 0; f < finest.triangles.size(); ++f)
+    if (near[finest.triangles[f][0]] || near[finest.triangles[f][1]] ||
+        near[finest.triangles[f][2]])
+      result.push_back(f);
+  return result;
+}
+
 // The vertices of the turned faces go half the way to the mean of their neighbours.
 void smooth_faces(const relax::SubdividedLevel& finest,
                   const std::vector<relax::SurfacePoint>& foot_points,
@@ -75,26 +111,25 @@ std::vector<std::uint32_t> find_turned_faces(const relax::InputSurface& input,
                                              const relax::SubdividedLevel& finest,
                                              const std::vector<relax::SurfacePoint>& foot_points,
                                              const Points& limit) {
-  const Points normals = smooth_normals(input);
-  std::vector<std::uint8_t> flags(finest.triangles.size());
-  relax::for_each_index(flags.size(), [&](std::size_t f) {
-    flags[f] = is_turned(input, normals, foot_points, limit, finest.triangles[f]);
-  });
-  std::vector<std::uint32_t> turned;
-  for (std::uint32_t f = 0; f < flags.size(); ++f)
-    if (flags[f]) turned.push_back(f);
-  return turned;
+  std::vector<std::uint32_t> all(finest.triangles.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return turned_among(input, smooth_normals(input), foot_points, limit, finest, all);
 }
 
 std::uint32_t turn_faces_back(const relax::InputSurface& input,
                               const relax::SubdividedLevel& finest, const LimitOperator& limit,
                               const std::vector<relax::SurfacePoint>& foot_points, Points& points) {
+  const Points normals = smooth_normals(input);
+  std::vector<std::uint32_t> watched(finest.triangles.size());
+  std::iota(watched.begin(), watched.end(), 0u);
   Points at, best = points;
   std::size_t least = 0;
   int without_gain = 0;
   for (int round = 0; round <= kMostRounds; ++round) {
     limit.apply(points, at);
-    const std::vector<std::uint32_t> turned = find_turned_faces(input, finest, foot_points, at);
+    const std::vector<std::uint32_t> turned =
+        turned_among(input, normals, foot_points, at, finest, watched);
+    if (round == 0) watched = faces_near(finest, turned, kWatchedRings);
     const bool is_better = round == 0 || turned.size() < least;
     without_gain = is_better ? 0 : without_gain + 1;
     if (is_better) {

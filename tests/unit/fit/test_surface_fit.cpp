@@ -24,7 +24,9 @@ struct Remeshed {
         laid_out(remesh::remesh(domain, {.levels = levels}, {}).laid_out),
         relaxed(relax::relax(domain, laid_out, levels, {}, {})) {}
 
-  Points fitted() const { return fit::fit_control_points(domain, laid_out, relaxed, {}, {}); }
+  Points fitted() const {
+    return fit::fit_control_points(domain, laid_out, relaxed, {}, {}).points;
+  }
   Points limit_of(const Points& points) const {
     Points limit;
     fit::LimitOperator(relaxed.mesh.base, relaxed.levels.back()).apply(points, limit);
