@@ -11,6 +11,8 @@ namespace {
 
 // Normals of an input vertex and of its nearest point differ by less than this cosine.
 constexpr double kLeastCosine = 0.3;
+// Features are thin: what a foot on one counts against a foot on the surface.
+constexpr double kFeatureWeight = 8;
 // Walks from the last foot of a limit point to the present one.
 constexpr int kFootSteps = 2;
 // The weight of a vertex in a point that lies on it.
@@ -99,7 +101,8 @@ FitTargets find_targets(const relax::InputSurface& input, const domain::Domain& 
   targets.feet.resize(limit.size());
   relax::for_each_index(limit.size(), [&](std::size_t v) {
     targets.feet[v] = follow(input, domain, limit[v], foot_points[v]);
-    targets.feet[v].weight = areas[v] * total;
+    const bool on_feature = targets.feet[v].normal.isZero(0);
+    targets.feet[v].weight = (on_feature ? kFeatureWeight : 1.0) * areas[v] * total;
   });
 
   const Points& positions = input.mesh.positions;

@@ -164,6 +164,7 @@ FittedSurface fit_control_points(const domain::Domain& domain,
       make_penalties(relaxed, relaxed.mesh.positions, options);
   Points points = interpolate(limit, relaxed.mesh.positions), at;
   std::vector<relax::SurfacePoint> foot_points = relaxed.points;
+  std::vector<std::uint8_t> held(points.size(), 0);  // on curves and at corners
   for (int round = 0; round < options.rounds; ++round) {
     report_progress(progress, "fitting", static_cast<double>(round) / options.rounds);
     limit.apply(points, at);
@@ -171,9 +172,10 @@ FittedSurface fit_control_points(const domain::Domain& domain,
     NormalEquations equations(finest, domain.mesh.positions, limit, penalties, targets,
                               options.tangential_share);
     solve(equations, options.iterations, points);
+    for (std::size_t v = 0; v < held.size(); ++v) held[v] = targets.feet[v].normal.isZero(0);
   }
   FittedSurface fitted;
-  fitted.turned_faces = turn_faces_back(input, finest, limit, foot_points, points);
+  fitted.turned_faces = turn_faces_back(input, finest, limit, foot_points, held, points);
   fitted.points = std::move(points);
   return fitted;
 }

@@ -86,12 +86,11 @@ std::vector<std::uint32_t> faces_near(const relax::SubdividedLevel& finest,
 }
 
 // The vertices of the turned faces go half the way to the mean of their neighbours.
-void smooth_faces(const relax::SubdividedLevel& finest,
-                  const std::vector<relax::SurfacePoint>& foot_points,
+void smooth_faces(const relax::SubdividedLevel& finest, const std::vector<std::uint8_t>& held,
                   const std::vector<std::uint32_t>& turned, Points& points) {
   std::vector<std::uint8_t> marked(points.size(), 0);
   for (std::uint32_t f : turned)
-    for (std::uint32_t v : finest.triangles[f]) marked[v] = foot_points[v].edge < 0;
+    for (std::uint32_t v : finest.triangles[f]) marked[v] = !held[v];
   Points sums(points.size(), Eigen::Vector3d::Zero());
   std::vector<std::uint32_t> counts(points.size(), 0);
   for (const auto& [a, b] : finest.edges) {
@@ -118,7 +117,8 @@ std::vector<std::uint32_t> find_turned_faces(const relax::InputSurface& input,
 
 std::uint32_t turn_faces_back(const relax::InputSurface& input,
                               const relax::SubdividedLevel& finest, const LimitOperator& limit,
-                              const std::vector<relax::SurfacePoint>& foot_points, Points& points) {
+                              const std::vector<relax::SurfacePoint>& foot_points,
+                              const std::vector<std::uint8_t>& held, Points& points) {
   const Points normals = smooth_normals(input);
   std::vector<std::uint32_t> watched(finest.triangles.size());
   std::iota(watched.begin(), watched.end(), 0u);
@@ -137,7 +137,7 @@ std::uint32_t turn_faces_back(const relax::InputSurface& input,
       best = points;
     }
     if (turned.empty() || without_gain == kPatience) break;
-    smooth_faces(finest, foot_points, turned, points);
+    smooth_faces(finest, held, turned, points);
   }
   points = std::move(best);
   return static_cast<std::uint32_t>(least);

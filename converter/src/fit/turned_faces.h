@@ -19,8 +19,10 @@ std::vector<std::uint32_t> find_turned_faces(const relax::InputSurface& input,
 
 /// Smooths the control points of turned faces, a little and only there, until none is left or
 /// nothing helps. Returns how many are left.
+/// Vertices with a mark in `held` stay.
 std::uint32_t turn_faces_back(const relax::InputSurface& input,
                               const relax::SubdividedLevel& finest, const LimitOperator& limit,
-                              const std::vector<relax::SurfacePoint>& foot_points, Points& points);
+                              const std::vector<relax::SurfacePoint>& foot_points,
+                              const std::vector<std::uint8_t>& held, Points& points);
 
 }  // namespace zerotree::fit
