@@ -19,7 +19,7 @@ struct FitOptions {
   double tangential_share = 0.05;
   /// How often distances are measured anew, and iterations of the solve in between.
   int rounds = 2;
-  int iterations = 10;
+  int iterations = 6;
 };
 
 struct FittedSurface {

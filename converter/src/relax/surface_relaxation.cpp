@@ -14,10 +14,8 @@ constexpr int kFirstLevel = 2;
 // It feels the geometry so many levels finer: a level alone loses what lies between its vertices,
 // such as the tips of ears.
 constexpr int kForceDepth = 2;
-// New vertices go so often towards the place that Loop's rule predicts ...
-constexpr int kPredictionSteps = 2;
-// ... and each cycle ends by going this share of the way once more, which lowers tangential details
-// by a third.
+// New vertices go to the place that Loop's rule predicts, and each cycle ends by going this share
+// of the way once more, which lowers tangential details by a third.
 constexpr double kLastPrediction = 0.7;
 
 }  // namespace
@@ -38,15 +36,18 @@ RelaxedMesh relax(const domain::Domain& domain, const remesh::Parameterisation& 
   const auto go_to_prediction = [&](double share) {
     guarded.move(vertices, steps.towards_prediction(vertices, share));
   };
+  // The finer levels begin smooth and have most of the vertices: half the steps do.
+  int count = options.steps;
   for (int coarsest = first; moves; coarsest = vertices.level() - 1) {
     report_progress(progress, "relaxing", static_cast<double>(vertices.level()) / (levels + 1));
     // A V-cycle: what is rough must be smooth before it can move together.
-    for (int l = vertices.level(); l > coarsest; --l) relax_level(l, options.steps / 2);
-    for (int l = coarsest; l <= vertices.level(); ++l) relax_level(l, options.steps);
+    for (int l = vertices.level(); l > coarsest; --l) relax_level(l, count / 2);
+    for (int l = coarsest; l <= vertices.level(); ++l) relax_level(l, count);
     go_to_prediction(kLastPrediction);
     if (vertices.level() == levels) break;
     vertices.refine();
-    for (int i = 0; i < kPredictionSteps; ++i) go_to_prediction(1.0);
+    go_to_prediction(1.0);
+    count = (options.steps + 1) / 2;
   }
   result.report = {guarded.rejected(), vertices.count_negative()};
   result.mesh = {laid_out.base.topology, levels, vertices.positions()};

@@ -14,7 +14,8 @@
 namespace zerotree::relax {
 
 struct RelaxOptions {
-  /// Steps of each level; 0 samples the parameterisation and leaves it at that.
+  /// Steps of each coarse level, twice those of the fine ones; 0 samples the parameterisation and
+  /// leaves it at that.
   int steps = 4;
 };
 
