@@ -61,7 +61,7 @@ SurfaceModel build_surface_model(const TriangleMesh& mesh, const ConvertOptions&
       clock.run("remesh", [&] { return remesh::remesh(domain, remesh_options, progress); });
   note_remesh(remeshed, report);
 
-  const relax::RelaxedMesh relaxed = clock.run("relax", [&] {
+  relax::RelaxedMesh relaxed = clock.run("relax", [&] {
     return relax::relax(domain, remeshed.laid_out, remeshed.report.levels, {}, progress);
   });
 
@@ -74,6 +74,8 @@ SurfaceModel build_surface_model(const TriangleMesh& mesh, const ConvertOptions&
   model.control_points = clock.run("fit", [&] {
     return fit::fit_control_points(domain, remeshed.laid_out, relaxed, {}, progress);
   });
+  if (!options.debug_pictures.empty())
+    model.relaxed = std::make_shared<const relax::RelaxedMesh>(std::move(relaxed));
   return model;
 }
 
