@@ -98,13 +98,14 @@ picture::Image draw_details(const PictureSubject& subject, const TriangleMesh& l
                             const PictureView& view) {
   const std::vector<report::LevelDetails>& levels = subject.report.level_details;
   picture::FigureText text{"Details of each level",
-                           subject.report.input +
+                           name_of(subject) +
                                ": root mean squares in 1e-5 of the diagonal; energy ratio: "
                                "tangential by normal"};
   picture::SheetOptions sheet;
   sheet.columns = std::max(1, static_cast<int>(levels.size()));
   sheet.width = std::max(kSheetWidth, kPanelWidth * sheet.columns);
   picture::RenderOptions options = view.render;
+  options.even_light = true;
   options.width = picture::panel_width(2 * sheet.columns, sheet);
   options.height = picture::panel_height(subject.input, options.width, options);
   const LogScale scale = scale_of(levels);

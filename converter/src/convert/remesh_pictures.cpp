@@ -40,9 +40,8 @@ std::string rounded(double value) {
   return text;
 }
 
-Image on_paper(const picture::Model& model, const PictureView& view, bool flat = false) {
-  picture::RenderOptions options = view.render;
-  options.flat = flat;
+Image on_paper(const picture::Model& model, const PictureView& view,
+               const picture::RenderOptions& options) {
   Image image = picture::paper(options.width, options.height);
   lay_over(image, picture::render(model, view.camera, options), 0, 0);
   return image;
@@ -129,7 +128,8 @@ void add_features(const relax::RelaxedMesh& relaxed, const BaseEdges& edges, con
   if (corners > 0) {
     layers.push_back(corner_dots(relaxed, kCorner, kDot));
     layers.push_back(corner_dots(relaxed, kCornerCore, kDotCore));
-    text.key.push_back({kCornerCore, kDotCore, counted(corners, "corners")});
+    text.key.push_back(
+        {kCornerCore, kDot, counted(corners, corners == 1 ? "corner" : "corners"), true});
   }
 }
 
@@ -163,7 +163,20 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(place)];
 }
 
+// From 0 in steps of 1, 2 or 5 times a power of ten, at most six of them, up to `top`.
+std::vector<picture::RampTick> round_ticks(double top) {
+  double step = std::pow(10.0, std::floor(std::log10(top)) - 1);
+  for (int k = 0; top / step > 6; ++k) step *= k % 3 == 1 ? 2.5 : 2;
+  std::vector<picture::RampTick> ticks;
+  for (int i = 0; i * step <= top; ++i) ticks.push_back({i * step / top, rounded(i * step)});
+  return ticks;
+}
+
 }  // namespace
+
+std::string name_of(const PictureSubject& subject) {
+  return std::filesystem::path(subject.report.input).filename().string();
+}
 
 Image draw_base(const PictureSubject& subject, const PictureView& view) {
   const relax::RelaxedMesh& relaxed = *subject.model.relaxed;
@@ -173,12 +186,14 @@ Image draw_base(const PictureSubject& subject, const PictureView& view) {
                         relaxed.mesh.positions.begin() + relaxed.mesh.base.vertex_count);
   const BaseEdges edges = sort_base_edges(relaxed);
   const EdgeLines lines(relaxed, 0);
-  picture::FigureText text{"Base mesh", subject.report.input + ": " +
+  picture::FigureText text{"Base mesh", name_of(subject) + ": " +
                                             counted(base.positions.size(), "vertices, ") +
                                             counted(base.triangles.size(), "faces")};
   std::vector<Lines> layers{lines.draw(0, edges.plain, kEdge, kMiddle)};
   add_features(relaxed, edges, lines, layers, text);
-  Image image = on_paper({&base}, view, true);
+  picture::RenderOptions flat = view.render;
+  flat.flat = true;
+  Image image = on_paper({&base}, view, flat);
   draw_lines(image, layers, base, view.camera);
   return picture::figure(image, text);
 }
@@ -190,7 +205,7 @@ Image draw_parameter_lines(const PictureSubject& subject, const PictureView& vie
   const EdgeLines lines(relaxed, relaxed.mesh.levels);
   const int level = line_level(relaxed);
   picture::FigureText text{"Parameter lines on the input",
-                           subject.report.input + ": relaxed mesh of level " +
+                           name_of(subject) + ": relaxed mesh of level " +
                                std::to_string(relaxed.mesh.levels) + ", " +
                                counted(mesh.triangles.size(), "faces, with the edges of level ") +
                                std::to_string(level)};
@@ -202,7 +217,7 @@ Image draw_parameter_lines(const PictureSubject& subject, const PictureView& vie
   layers.push_back(lines.draw(0, edges.plain, kEdge, kBold));
   text.key.push_back({kEdge, kBold, "base edges"});
   add_features(relaxed, edges, lines, layers, text);
-  Image image = on_paper({&mesh}, view);
+  Image image = on_paper({&mesh}, view, view.render);
   draw_lines(image, layers, mesh, view.camera);
   return picture::figure(image, text);
 }
@@ -215,13 +230,15 @@ Image draw_error(const PictureSubject& subject, const TriangleMesh& limit,
   for (double d : distances) model.colours.push_back(picture::ramp_albedo(d / top));
 
   picture::FigureText text{"Distance of the remesh from the input",
-                           subject.report.input + ": RMS " +
+                           name_of(subject) + ": RMS " +
                                rounded(subject.report.remeshing_error * 1e5) + ", largest " +
                                rounded(quantile(distances, 1.0) * 1e5) +
                                "; the ramp ends where 99 % of the vertices are nearer"};
   text.ramp_title = "distance in 1e-5 of the diagonal";
-  for (int i = 0; i <= 4; ++i) text.ticks.push_back({0.25 * i, rounded(0.25 * i * top * 1e5)});
-  return picture::figure(on_paper(model, view), text);
+  text.ticks = round_ticks(top * 1e5);
+  picture::RenderOptions even = view.render;
+  even.even_light = true;
+  return picture::figure(on_paper(model, view, even), text);
 }
 
 }  // namespace zerotree::convert

@@ -1,6 +1,8 @@
 // Pictures of the base mesh, the parameter lines and the remesh's error.
 #pragma once
 
+#include <string>
+
 #include "convert/debug_pictures.h"
 #include "picture/camera.h"
 #include "picture/image.h"
@@ -13,6 +15,9 @@ struct PictureView {
   picture::RenderOptions render;
   picture::Camera camera;
 };
+
+/// The input file's name, for captions.
+std::string name_of(const PictureSubject& subject);
 
 /// The base mesh, each face shaded by its plane, with its edges, creases, boundary and corners.
 picture::Image draw_base(const PictureSubject& subject, const PictureView& view);

@@ -16,8 +16,6 @@ constexpr std::array<Pixel, 8> kStops{{{252, 253, 191, 255},
                                        {158, 47, 127, 255},
                                        {114, 31, 129, 255},
                                        {68, 15, 118, 255}}};
-// About the albedo of clay: lit fully, it is just not overexposed.
-constexpr float kBrightest = 0.72F;
 
 float linear(std::uint8_t encoded) {  // inverse of sRGB's transfer function
   const float v = static_cast<float>(encoded) / 255.0F;
@@ -35,7 +33,7 @@ Pixel ramp_colour(double share) {
 
 Eigen::Vector3f ramp_albedo(double share) {
   const Pixel colour = ramp_colour(share);
-  return kBrightest * Eigen::Vector3f(linear(colour[0]), linear(colour[1]), linear(colour[2]));
+  return {linear(colour[0]), linear(colour[1]), linear(colour[2])};
 }
 
 }  // namespace zerotree::picture

@@ -12,7 +12,7 @@ namespace zerotree::picture {
 /// other way round). Little is light, so that relief shows where there is little. NaN counts as 0.
 Pixel ramp_colour(double share);
 
-/// The same as the albedo of a lit surface: linear, and no brighter than a lamp can show.
+/// The same as the albedo of a surface: linear.
 Eigen::Vector3f ramp_albedo(double share);
 
 }  // namespace zerotree::picture

@@ -65,13 +65,35 @@ class Figure {
   void draw_key(int top) {
     int left = line_;
     for (const KeyEntry& entry : text_.key) {
-      const int thickness = std::max(1, static_cast<int>(std::lround(entry.width)));
-      const int length = std::max(thickness, 2 * line_);
-      lay_over(image_, Image(length, thickness, entry.colour), left, top + line_ - thickness / 2);
-      left += length + line_ / 2;
+      left += draw_sample(entry, left, top + line_) + line_ / 2;
       write(regular_, entry.text, left, top + line_ / 2, line_, kGreyInk);
       left += static_cast<int>(regular_.width(entry.text, static_cast<float>(line_))) + 2 * line_;
     }
+  }
+
+  // Returns its length.
+  int draw_sample(const KeyEntry& entry, int left, int middle) {
+    if (entry.is_dot) {
+      const int radius = std::max(3, static_cast<int>(std::lround(0.5F * entry.width)));
+      draw_disc(left + radius, middle, static_cast<float>(radius), kInk);
+      draw_disc(left + radius, middle, 0.6F * static_cast<float>(radius), entry.colour);
+      return 2 * radius;
+    }
+    const int thickness = std::max(1, static_cast<int>(std::lround(entry.width)));
+    lay_over(image_, Image(2 * line_, thickness, entry.colour), left, middle - thickness / 2);
+    return 2 * line_;
+  }
+
+  void draw_disc(int centre_x, int centre_y, float radius, Pixel colour) {
+    const int reach = static_cast<int>(radius) + 1;
+    for (int y = -reach; y <= reach; ++y)
+      for (int x = -reach; x <= reach; ++x) {
+        const float covered =
+            radius + 0.5F - std::hypot(static_cast<float>(x), static_cast<float>(y));
+        Image point(1, 1, colour);
+        point.at(0, 0)[3] = static_cast<std::uint8_t>(255.0F * std::clamp(covered, 0.0F, 1.0F));
+        lay_over(image_, point, centre_x + x, centre_y + y);
+      }
   }
 
   void draw_ramp(int top) {

@@ -14,6 +14,8 @@ struct KeyEntry {
   /// Of the sample of it, in pixels.
   float width = 2.0F;
   std::string text;
+  /// A round dot with a dark rim instead of a line.
+  bool is_dot = false;
 };
 
 /// A label of the colour ramp (colour_ramp.h) at `share` of it, 0..1.

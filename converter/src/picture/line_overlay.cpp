@@ -10,7 +10,7 @@ namespace {
 
 // How far points are moved towards the viewer before they are tested; the unit frame has a diagonal
 // of 2.
-constexpr float kLift = 2e-3F;
+constexpr float kLift = 4e-4F;
 
 /// How much of each pixel lines of one colour cover. The largest share counts, not the sum, so that
 /// pieces of a line that overlap do not show.

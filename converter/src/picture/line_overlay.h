@@ -22,8 +22,8 @@ struct Lines {
 
 /// Draws the parts of `layers`, the first one lowest, that `mesh` does not hide from `camera`, on
 /// the opaque `image` of it. Lines may lie on the surface or a little below it: by less than a
-/// thousandth of the mesh's diagonal they count as visible. Throws what RayScene throws. Cost: a
-/// ray for each pixel of length.
+/// five thousandth of the mesh's diagonal they count as visible. Throws what RayScene throws. Cost:
+/// a ray for each pixel of length.
 void draw_lines(Image& image, const std::vector<Lines>& layers, const TriangleMesh& mesh,
                 const Camera& camera);
 
