@@ -14,7 +14,7 @@
 namespace zerotree::convert {
 namespace {
 
-constexpr int kWidth = 1500;
+constexpr int kWidth = 1200;
 
 // One camera for all, so that places can be found again from picture to picture.
 PictureView view_of(const TriangleMesh& input, int threads) {
@@ -22,8 +22,8 @@ PictureView view_of(const TriangleMesh& input, int threads) {
   view.render.width = kWidth;
   view.render.threads = threads;
   view.render.ground_shadow = false;
-  view.render.supersampling = 3;
-  view.render.sky_rays = 2;
+  view.render.supersampling = 2;
+  view.render.even_light = true;
   view.render.height = picture::panel_height(input, kWidth, view.render);
   view.camera = picture::choose_camera(input, view.render);
   return view;

@@ -31,7 +31,7 @@ void make_picture_folder(const std::filesystem::path& folder);
 /// the relaxed mesh, which lies on the input), error.png (distance of the remesh from the input)
 /// and detail-energy.png (size of the normal and tangential details, level by level) to `folder`.
 /// The pictures do not depend on the number of threads. Throws Error if a file cannot be written.
-/// Cost: about a minute on one core.
+/// Cost: about ten seconds on one core.
 void write_debug_pictures(const std::filesystem::path& folder, const PictureSubject& subject,
                           int threads, const Progress& progress);
 

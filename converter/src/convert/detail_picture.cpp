@@ -105,7 +105,6 @@ picture::Image draw_details(const PictureSubject& subject, const TriangleMesh& l
   sheet.columns = std::max(1, static_cast<int>(levels.size()));
   sheet.width = std::max(kSheetWidth, kPanelWidth * sheet.columns);
   picture::RenderOptions options = view.render;
-  options.even_light = true;
   options.width = picture::panel_width(2 * sheet.columns, sheet);
   options.height = picture::panel_height(subject.input, options.width, options);
   const LogScale scale = scale_of(levels);

@@ -236,9 +236,7 @@ Image draw_error(const PictureSubject& subject, const TriangleMesh& limit,
                                "; the ramp ends where 99 % of the vertices are nearer"};
   text.ramp_title = "distance in 1e-5 of the diagonal";
   text.ticks = round_ticks(top * 1e5);
-  picture::RenderOptions even = view.render;
-  even.even_light = true;
-  return picture::figure(on_paper(model, view, even), text);
+  return picture::figure(on_paper(model, view, view.render), text);
 }
 
 }  // namespace zerotree::convert
