@@ -37,11 +37,6 @@ constexpr std::size_t kTableSamples = 50'000;
 constexpr double kStepPerRemeshingError = 1.0;
 // ... but never finer than this part of the diagonal, about what float positions resolve.
 constexpr double kFinestRelativeStep = 1e-7;
-// A remesh farther from the input than this part of the input's mean edge has lost something, as a
-// rule a limb that got no base vertex: it is done again with more of them, this often at most.
-constexpr double kTolerableEdgeShare = 0.02;
-constexpr int kMostBaseEnlargements = 2;
-constexpr double kBaseEnlargement = 1.5;
 // Most memory a conversion takes per input vertex, in bytes; from 100,000 vertices on it is half.
 constexpr std::uint64_t kMemoryPerVertex = 5000;
 
@@ -90,19 +85,6 @@ double remeshing_error(const SurfaceModel& model, const PrefixMeasurement& how) 
   return measure::compare_surfaces(how.original, limit_mesh(model), how.distance).relative_rms();
 }
 
-double mean_edge_length(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k)
-      sum += (mesh.positions[t[k]] - mesh.positions[t[(k + 1) % 3]]).norm();
-  return sum / (3 * static_cast<double>(mesh.triangles.size()));
-}
-
-struct ModelAndError {
-  SurfaceModel model;
-  double remeshing_error;
-};
-
 // Root mean squares of the details of each level, relative to the diagonal.
 std::vector<report::LevelDetails> level_details(const analysis::WaveletDecomposition& wavelets,
                                                 double diagonal) {
@@ -118,24 +100,6 @@ std::vector<report::LevelDetails> level_details(const analysis::WaveletDecomposi
         {std::sqrt(normal / count) / diagonal, std::sqrt(tangential / count) / diagonal});
   }
   return levels;
-}
-
-// Builds the model; with a base of automatic size, a larger one if the remesh lost something.
-ModelAndError build_faithful_model(const TriangleMesh& mesh, const measure::SurfaceIndex& original,
-                                   ConvertOptions options, report::StageClock& clock,
-                                   report::ConvertReport& report, const Progress& progress) {
-  const double tolerable = kTolerableEdgeShare * mean_edge_length(mesh) / report.diagonal;
-  const bool is_automatic = options.base_vertices == 0;
-  for (int enlargements = 0;; ++enlargements) {
-    SurfaceModel model = build_surface_model(mesh, options, clock, report, progress);
-    const PrefixMeasurement how = measurement_of(original, model, options, report);
-    const double error = clock.run("measure remesh", [&] { return remeshing_error(model, how); });
-    if (error <= tolerable || !is_automatic || enlargements == kMostBaseEnlargements)
-      return {std::move(model), error};
-    options.base_vertices =
-        static_cast<int>(kBaseEnlargement * static_cast<double>(model.base.vertex_count));
-    ++report.base_enlargements;
-  }
 }
 
 // Limit normals of the base: what an unaware viewer shades the base with.
@@ -242,7 +206,7 @@ report::ConvertReport convert_file(const ConvertOptions& asked, const Progress& 
                      [&] { return measure::SurfaceIndex(imported.mesh, options.threads); });
   });
   TriangleMesh cleaned;
-  const auto [model, remesh_error] = name_input_in_errors(options.input, [&] {
+  const SurfaceModel model = name_input_in_errors(options.input, [&] {
     cleaned = clean_input(imported.mesh, clock, report, progress);
     // What was asked to be changed is no error: measure against the changed surface.
     if (make_requested_repairs(cleaned, options, clock, report, progress))
@@ -252,11 +216,11 @@ report::ConvertReport convert_file(const ConvertOptions& asked, const Progress& 
                  cleaned, original, {.crease_angle_degrees = options.crease_angle_degrees}) /
              report.diagonal;
     });
-    return build_faithful_model(cleaned, original, options, clock, report, progress);
+    return build_surface_model(cleaned, options, clock, report, progress);
   });
-  report.remeshing_error = remesh_error;
-  report.remesh_remark = report::explain_remeshing_error(report);
   const PrefixMeasurement how = measurement_of(original, model, options, report);
+  report.remeshing_error = clock.run("measure remesh", [&] { return remeshing_error(model, how); });
+  report.remesh_remark = report::explain_remeshing_error(report);
   const analysis::WaveletDecomposition wavelets = analyse_model(model, options, clock, progress);
   report.level_details = level_details(wavelets, report.diagonal);
   if (!options.debug_pictures.empty())

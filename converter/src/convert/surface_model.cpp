@@ -31,22 +31,22 @@ void note_remesh(const remesh::RemeshResult& remeshed, report::ConvertReport& re
   report.corners = remeshed.report.base_corners;
   report.levels = remeshed.report.levels;
   report.finest_vertices = remeshed.report.finest_vertices;
+  report.pinned_limbs = remeshed.report.pinned_limbs;
   report.cone_swaps = remeshed.report.cone_swaps;
 }
 
-}  // namespace
+// What is kept of the remesh: everything else is freed before the surface's topology is built.
+struct RemeshedSurface {
+  bitstream::BaseTopology base;
+  int levels = 0;
+  std::vector<Eigen::Vector3d> control_points;
+  /// Only if pictures were asked for.
+  std::shared_ptr<const relax::RelaxedMesh> relaxed;
+};
 
-TriangleMesh clean_input(const TriangleMesh& mesh, report::StageClock& clock,
-                         report::ConvertReport& report, const Progress& progress) {
-  clean::CleanMesh cleaned =
-      clock.run("clean", [&] { return clean::clean_mesh(mesh, {}, progress); });
-  note_clean(cleaned, report);
-  return std::move(cleaned.mesh);
-}
-
-SurfaceModel build_surface_model(const TriangleMesh& mesh, const ConvertOptions& options,
-                                 report::StageClock& clock, report::ConvertReport& report,
-                                 const Progress& progress) {
+RemeshedSurface remesh_surface(const TriangleMesh& mesh, const ConvertOptions& options,
+                               report::StageClock& clock, report::ConvertReport& report,
+                               const Progress& progress) {
   domain::DomainOptions domain_options;
   domain_options.base_vertices = static_cast<std::uint32_t>(options.base_vertices);
   domain_options.crease_angle_degrees = options.crease_angle_degrees;
@@ -64,18 +64,40 @@ SurfaceModel build_surface_model(const TriangleMesh& mesh, const ConvertOptions&
   relax::RelaxedMesh relaxed = clock.run("relax", [&] {
     return relax::relax(domain, remeshed.laid_out, remeshed.report.levels, {}, progress);
   });
-
-  SurfaceModel model;
-  model.base = relaxed.mesh.base;
-  model.hierarchy = clock.run("topology", [&] {
-    return std::make_shared<const surface::SubdivisionHierarchy>(model.base, relaxed.mesh.levels,
-                                                                 kTransform);
-  });
-  model.control_points = clock.run("fit", [&] {
+  fit::FittedSurface fitted = clock.run("fit", [&] {
     return fit::fit_control_points(domain, remeshed.laid_out, relaxed, {}, progress);
   });
+  report.rejected_moves = relaxed.report.rejected_moves;
+  report.negative_triangles = relaxed.report.negative_triangles;
+  report.turned_faces = fitted.turned_faces;
+  RemeshedSurface result{relaxed.mesh.base, relaxed.mesh.levels, std::move(fitted.points), nullptr};
   if (!options.debug_pictures.empty())
-    model.relaxed = std::make_shared<const relax::RelaxedMesh>(std::move(relaxed));
+    result.relaxed = std::make_shared<const relax::RelaxedMesh>(std::move(relaxed));
+  return result;
+}
+
+}  // namespace
+
+TriangleMesh clean_input(const TriangleMesh& mesh, report::StageClock& clock,
+                         report::ConvertReport& report, const Progress& progress) {
+  clean::CleanMesh cleaned =
+      clock.run("clean", [&] { return clean::clean_mesh(mesh, {}, progress); });
+  note_clean(cleaned, report);
+  return std::move(cleaned.mesh);
+}
+
+SurfaceModel build_surface_model(const TriangleMesh& mesh, const ConvertOptions& options,
+                                 report::StageClock& clock, report::ConvertReport& report,
+                                 const Progress& progress) {
+  RemeshedSurface remeshed = remesh_surface(mesh, options, clock, report, progress);
+  SurfaceModel model;
+  model.base = remeshed.base;
+  model.control_points = std::move(remeshed.control_points);
+  model.relaxed = std::move(remeshed.relaxed);
+  model.hierarchy = clock.run("topology", [&] {
+    return std::make_shared<const surface::SubdivisionHierarchy>(model.base, remeshed.levels,
+                                                                 kTransform);
+  });
   return model;
 }
 

@@ -1,5 +1,6 @@
 #include "domain/collapse_choice.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -29,7 +30,8 @@ void close_gap(TriangleTopology& topology, const CollapseSite& site, std::uint32
 
 }  // namespace
 
-DecimationState::DecimationState(Domain& domain, const std::vector<std::uint32_t>& pinned)
+DecimationState::DecimationState(Domain& domain, const std::vector<std::uint32_t>& pinned,
+                                 std::uint32_t target)
     : topology(domain.topology),
       kinds(domain.kinds),
       records(domain.collapses),
@@ -37,6 +39,8 @@ DecimationState::DecimationState(Domain& domain, const std::vector<std::uint32_t
       fixed(domain.kinds.size(), 0) {
   const std::vector<std::uint8_t> gone = mark_removed_faces(domain);
   quadrics = vertex_quadrics(topology, gone, positions);
+  for (const Quadric& quadric : quadrics) patch_area += quadric.weight();
+  patch_area /= std::max(target, 1u);
   fans = count_fans(topology, gone);
   for (std::uint32_t v = 0; v < fixed.size(); ++v) fixed[v] = kinds[v] == VertexKind::corner;
   for (std::uint32_t v : pinned) fixed[v] = 1;

@@ -9,7 +9,8 @@ namespace zerotree::domain {
 /// A mesh under decimation.
 struct DecimationState {
   /// For a mesh of which `domain.collapses` are done. The vertices of `pinned` are not removed.
-  DecimationState(Domain& domain, const std::vector<std::uint32_t>& pinned);
+  /// `target` vertices shall be left.
+  DecimationState(Domain& domain, const std::vector<std::uint32_t>& pinned, std::uint32_t target);
 
   /// Vertices that are left.
   std::size_t vertex_count() const { return positions.size() - records.size(); }
@@ -21,6 +22,7 @@ struct DecimationState {
   std::vector<CollapseRecord>& records;
   std::vector<Eigen::Vector3d> positions;
   std::vector<Quadric> quadrics;
+  double patch_area = 0;  ///< of the surface for each of `target` vertices
   VertexFans fans;
   std::vector<std::uint8_t> fixed;  ///< 1 for corners, pinned and removed vertices
 };
@@ -32,7 +34,7 @@ class CollapseChoice {
   explicit CollapseChoice(const DecimationState& state)
       : topology_(state.topology),
         rules_(state.topology, state.kinds, state.fans),
-        cost_(state.positions, state.quadrics) {}
+        cost_(state.positions, state.quadrics, state.patch_area) {}
 
   /// The cost of the cheapest collapse of `vertex` that `caps` allow, of equals that into the
   /// lowest vertex; infinite if there is none.

@@ -13,6 +13,8 @@ namespace {
 constexpr double kAreaTerm = 2e-3;
 // Slivers beyond this aspect are all equally bad.
 constexpr double kMaxAspect = 100.0;
+// Share of a patch's area that a quadric counts besides its own.
+constexpr double kLimbShare = 0.1;
 // Cost factor e^this for each face above valence 6 and, twice, for each below 5.
 constexpr double kValenceWeight = 0.4;
 
@@ -22,6 +24,11 @@ double valence_factor(const CollapseSite& site) {
   if (site.left_apex != kNone) excess += 2 * std::max(0, 5 - site.left_apex_valence);
   if (site.right_apex != kNone) excess += 2 * std::max(0, 5 - site.right_apex_valence);
   return excess == 0 ? 1.0 : std::exp(kValenceWeight * excess);
+}
+
+// The quadric's squared distance times its area and a share of a patch's.
+double limb_distance(const Quadric& quadric, const Eigen::Vector3d& to, double patch_area) {
+  return quadric.at(to) * (1 + kLimbShare * patch_area / std::max(quadric.weight(), 1e-300));
 }
 
 // 1 for an equilateral triangle, growing with its elongation.
@@ -90,7 +97,8 @@ void CollapseCost::visit(const TriangleTopology& topology, const Star& star) {
 double CollapseCost::of(const CollapseSite& site, const CollapseCaps& caps, double limit) const {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const Eigen::Vector3d& to = positions_[site.kept];
-  const double distance = quadrics_[site.removed].at(to) + quadrics_[site.kept].at(to);
+  const double distance = limb_distance(quadrics_[site.removed], to, patch_area_) +
+                          limb_distance(quadrics_[site.kept], to, patch_area_);
   const double factor = valence_factor(site);
   if (distance * factor > limit) return infinite;
   double area = 0, aspect = 1, turn = 1;

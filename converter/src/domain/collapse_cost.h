@@ -20,15 +20,20 @@ std::vector<Quadric> vertex_quadrics(const TriangleTopology& topology,
 /// Costs of the collapses of one vertex after the other; holds scratch memory, so one per thread.
 class CollapseCost {
  public:
-  CollapseCost(const std::vector<Eigen::Vector3d>& positions, const std::vector<Quadric>& quadrics)
-      : positions_(positions), quadrics_(quadrics) {}
+  /// `patch_area`: of the surface, for each vertex that shall be left (normalised).
+  CollapseCost(const std::vector<Eigen::Vector3d>& positions, const std::vector<Quadric>& quadrics,
+               double patch_area)
+      : positions_(positions), quadrics_(quadrics), patch_area_(patch_area) {}
 
   /// Goes to the vertex of `star`.
   void visit(const TriangleTopology& topology, const Star& star);
 
-  /// Cost of merging the vertex as `site` says: (quadric + area term) x aspect x exp(valence
-  /// excess). Infinite if a face would flip and the caps forbid
-  /// that, or if it is not below `limit`.
+  /// Cost of merging the vertex as `site` says: (quadrics + area term) x aspect x exp(valence
+  /// excess). Infinite if a face would flip and the caps forbid that, or if it is not below
+  /// `limit`.
+  ///
+  /// A quadric is squared distance times area, which would give thin limbs away for nothing: a
+  /// share of it counts as if it were the area of a whole patch.
   double of(const CollapseSite& site, const CollapseCaps& caps, double limit) const;
 
  private:
@@ -40,6 +45,7 @@ class CollapseCost {
   };
   const std::vector<Eigen::Vector3d>& positions_;
   const std::vector<Quadric>& quadrics_;
+  double patch_area_;
   std::vector<Side> sides_;
 };
 

@@ -91,7 +91,7 @@ class Decimator {
 
 void decimate(Domain& domain, const std::vector<std::uint32_t>& pinned, std::uint32_t target,
               const Progress& progress) {
-  DecimationState state(domain, pinned);
+  DecimationState state(domain, pinned, target);
   const std::size_t count = state.positions.size();
   domain.collapses.reserve(count - std::min<std::size_t>(target, count));
   decimate_in_bulk(state, kExactPerBaseVertex * std::size_t{target}, progress);

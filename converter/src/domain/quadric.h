@@ -34,6 +34,8 @@ struct Quadric {
     b += other.b;
     c += other.c;
   }
+  /// The sum of the planes' weights.
+  double weight() const { return xx + yy + zz; }
   /// Never negative, which rounding could otherwise make it.
   double at(const Eigen::Vector3d& p) const {
     const double value = xx * p.x() * p.x() + yy * p.y() * p.y() + zz * p.z() * p.z() +

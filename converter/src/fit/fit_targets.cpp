@@ -13,6 +13,8 @@ namespace {
 constexpr double kLeastCosine = 0.3;
 // Walks from the last foot of a limit point to the present one.
 constexpr int kFootSteps = 2;
+// The weight of a vertex in a point that lies on it.
+constexpr double kAtVertex = 1 - 1e-9;
 
 Eigen::Vector3d triangle_normal(const Points& p, const Triangle& t) {
   return (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]);
@@ -38,15 +40,26 @@ Points vertex_normals(const Points& positions, const std::vector<Triangle>& tria
   return normals;
 }
 
+// Whether a point lies on a vertex that stays where it is.
+bool is_at_corner(const relax::InputSurface& input, const domain::Domain& domain,
+                  const relax::SurfacePoint& point) {
+  int corner = 0;
+  if (point.weights.maxCoeff(&corner) < kAtVertex) return false;
+  const std::uint32_t vertex = input.topology.faces[point.face][static_cast<std::size_t>(corner)];
+  return domain.kinds[vertex] == domain::VertexKind::corner;
+}
+
 FootTarget follow(const relax::InputSurface& input, const domain::Domain& domain,
                   const Eigen::Vector3d& limit, relax::SurfacePoint& foot) {
+  FootTarget target;
+  target.position = input.position(foot);
+  if (is_at_corner(input, domain, foot)) return target;
   const bool on_curve = foot.edge >= 0;
   for (int i = 0; i < kFootSteps; ++i) {
     const Eigen::Vector3d way = limit - input.position(foot);
     foot = on_curve ? relax::walk_along_feature(input, domain.kinds, foot, way)
                     : relax::walk_on_surface(input, foot, way);
   }
-  FootTarget target;
   target.position = input.position(foot);
   if (!on_curve) target.normal = input.face_normal(foot.face).stableNormalized();
   return target;

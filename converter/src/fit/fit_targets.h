@@ -15,7 +15,8 @@ namespace zerotree::fit {
 /// Of a limit vertex: its foot on the input.
 struct FootTarget {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  /// Unit normal of the input there; zero on a feature curve, where each direction counts.
+  /// Unit normal of the input there; zero on feature curves and at corners, where each direction
+  /// counts.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double weight = 0;
 };

@@ -25,8 +25,9 @@ std::vector<EdgeFaces> faces_of_edges(const relax::SubdividedLevel& level) {
   return all;
 }
 
-// Of each vertex on a curve its two neighbours along it.
-std::vector<std::array<std::uint32_t, 2>> curve_neighbours(const relax::SubdividedLevel& level) {
+// Of each vertex on a curve its two neighbours along it; none where curves end, meet or turn.
+std::vector<std::array<std::uint32_t, 2>> curve_neighbours(const bitstream::BaseTopology& base,
+                                                           const relax::SubdividedLevel& level) {
   std::vector<std::array<std::uint32_t, 2>> neighbours(level.vertex_count, {kNone, kNone});
   std::vector<std::uint8_t> count(level.vertex_count, 0);
   const auto add = [&](std::uint32_t at, std::uint32_t to) {
@@ -40,17 +41,19 @@ std::vector<std::array<std::uint32_t, 2>> curve_neighbours(const relax::Subdivid
   }
   for (std::size_t v = 0; v < neighbours.size(); ++v)
     if (count[v] != 2) neighbours[v] = {kNone, kNone};
+  for (std::uint32_t v : base.corner_vertices) neighbours[v] = {kNone, kNone};
   return neighbours;
 }
 
 }  // namespace
 
-SmoothnessPenalty::SmoothnessPenalty(const relax::SubdividedLevel& coarse, const Points& normals,
+SmoothnessPenalty::SmoothnessPenalty(const bitstream::BaseTopology& base,
+                                     const relax::SubdividedLevel& coarse, const Points& normals,
                                      const Points& positions, const SmoothnessWeights& weights)
     : first_odd_(coarse.vertex_count), stencils_(coarse.edges.size()) {
   set_axes(coarse, normals, positions, weights);
   const std::vector<EdgeFaces> edge_faces = faces_of_edges(coarse);
-  const std::vector<std::array<std::uint32_t, 2>> curve = curve_neighbours(coarse);
+  const std::vector<std::array<std::uint32_t, 2>> curve = curve_neighbours(base, coarse);
   for (std::uint32_t e = 0; e < stencils_.size(); ++e) {
     Stencil& stencil = stencils_[e];
     const auto add = [&](std::uint32_t vertex, float weight) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bitstream/base_topology.h"
 #include "fit/limit_operator.h"
 
 namespace zerotree::fit {
@@ -16,14 +17,16 @@ struct SmoothnessWeights {
 };
 
 /// The differences between the odd vertices of a level and their Butterfly prediction from the even
-/// ones (Dyn, Levin, Gregory 1990), cubic along features. No stencil crosses a feature: a wing
-/// beyond one is replaced by the parallelogram on this side. 88 bytes an edge of the coarser level.
+/// ones (Dyn, Levin, Gregory 1990), cubic along features and none next to corners. No stencil
+/// crosses a feature: a wing beyond one is replaced by the parallelogram on this side. 88 bytes an
+/// edge of the coarser level.
 class SmoothnessPenalty {
  public:
-  /// The odd vertices are those of the edges of `coarse`. `normals` are the finest surface's, of
-  /// any length; `positions` tell the tangents of curves.
-  SmoothnessPenalty(const relax::SubdividedLevel& coarse, const Points& normals,
-                    const Points& positions, const SmoothnessWeights& weights);
+  /// The odd vertices are those of the edges of `coarse`, a level of `base`. `normals` are the
+  /// finest surface's, of any length; `positions` tell the tangents of curves.
+  SmoothnessPenalty(const bitstream::BaseTopology& base, const relax::SubdividedLevel& coarse,
+                    const Points& normals, const Points& positions,
+                    const SmoothnessWeights& weights);
 
   /// Adds `sign` x D^T W D points to `gradient`, where D points are the differences and W their
   /// weights.

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "fit/fit_targets.h"
+#include "fit/turned_faces.h"
 
 namespace zerotree::fit {
 namespace {
@@ -39,8 +40,8 @@ std::vector<SmoothnessPenalty> make_penalties(const relax::RelaxedMesh& relaxed,
   SmoothnessWeights weights = options.smoothness;
   const auto levels = static_cast<int>(relaxed.levels.size()) - 1;
   for (int l = levels; l > 0 && l > levels - options.smooth_levels; --l) {
-    penalties.emplace_back(relaxed.levels[static_cast<std::size_t>(l - 1)], normals, points,
-                           weights);
+    penalties.emplace_back(relaxed.mesh.base, relaxed.levels[static_cast<std::size_t>(l - 1)],
+                           normals, points, weights);
     weights.normal = 0;
   }
   return penalties;
@@ -152,9 +153,10 @@ void solve(NormalEquations& equations, int iterations, Points& points) {
 
 }  // namespace
 
-Points fit_control_points(const domain::Domain& domain, const remesh::Parameterisation& laid_out,
-                          const relax::RelaxedMesh& relaxed, const FitOptions& options,
-                          const Progress& progress) {
+FittedSurface fit_control_points(const domain::Domain& domain,
+                                 const remesh::Parameterisation& laid_out,
+                                 const relax::RelaxedMesh& relaxed, const FitOptions& options,
+                                 const Progress& progress) {
   const relax::InputSurface input{domain.mesh, laid_out.charts.topology};
   const relax::SubdividedLevel& finest = relaxed.levels.back();
   const LimitOperator limit(relaxed.mesh.base, finest);
@@ -170,7 +172,10 @@ Points fit_control_points(const domain::Domain& domain, const remesh::Parameteri
                               options.tangential_share);
     solve(equations, options.iterations, points);
   }
-  return points;
+  FittedSurface fitted;
+  fitted.turned_faces = turn_faces_back(input, finest, limit, foot_points, points);
+  fitted.points = std::move(points);
+  return fitted;
 }
 
 }  // namespace zerotree::fit

@@ -93,6 +93,23 @@ std::optional<std::uint32_t> ParameterChart::common_vertex(std::uint32_t s, std:
   return std::nullopt;
 }
 
+// A base vertex of valence 3 of both triangles, the one nearer to `place`. All triangles around it
+// are neighbours: which edge lies between two points then depends on the way round.
+std::optional<std::uint32_t> ParameterChart::narrow_cone(const ChartPlace& place,
+                                                         std::uint32_t triangle) const {
+  const Triangle& corners = base_.topology.triangles[place.triangle];
+  const LatticePoint& p = place.point;
+  const std::array<double, 3> weights{1 - p.x() - p.y(), p.x(), p.y()};
+  std::optional<std::size_t> nearest;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const FanPosition& fan = fans_[place.triangle][k];
+    if (!fan.is_closed || fan.size > 3) continue;
+    if (std::ranges::count(base_.topology.triangles[triangle], corners[k]) == 0) continue;
+    if (!nearest || weights[k] > weights[*nearest]) nearest = k;
+  }
+  return nearest ? std::optional(corners[*nearest]) : std::nullopt;
+}
+
 namespace {
 
 FanStep step_between(double from, int from_index, double to, int to_index, int size, bool closed) {
@@ -134,15 +151,18 @@ bool ParameterChart::is_positive(const ChartPlace& a, const ChartPlace& b,
   // Rotate so that a is alone if two are together.
   if (a.triangle == b.triangle) return is_positive(c, a, b);
   if (a.triangle == c.triangle) return is_positive(b, c, a);
+  const auto sees = [&](std::uint32_t vertex) {
+    return is_positive_in_fan(seen_from(vertex, a), seen_from(vertex, b), seen_from(vertex, c));
+  };
   if (b.triangle == c.triangle) {
+    if (const auto cone = narrow_cone(a, b.triangle)) return sees(*cone);
     const int k = adjacency_towards(base_, a.triangle, b.triangle);
     if (k >= 0)
       return remesh::lattice_area(remesh::apply(base_.transitions[a.triangle][k], a.point), b.point,
                                   c.point) > 0;
   }
   const auto vertex = common_vertex(a.triangle, b.triangle, c.triangle);
-  return vertex.has_value() &&
-         is_positive_in_fan(seen_from(*vertex, a), seen_from(*vertex, b), seen_from(*vertex, c));
+  return vertex.has_value() && sees(*vertex);
 }
 
 std::optional<LatticePoint> ParameterChart::unfold(const ChartPlace& place,
@@ -162,12 +182,14 @@ std::optional<SurfacePoint> ParameterChart::midpoint(const SurfacePoint& a,
       remesh::walk(base_, anchor.triangle, anchor.point, remesh::apply(anchor.map, in_face));
   const ChartPlace end = place_of(b);
   LatticePoint target;
-  if (const auto seen = unfold(end, place.triangle)) {
+  const ChartPlace begin{place.triangle, place.point};
+  auto vertex = begin.triangle == end.triangle ? std::nullopt : narrow_cone(begin, end.triangle);
+  const auto seen = vertex ? std::nullopt : unfold(end, place.triangle);
+  if (seen) {
     target = (place.point + *seen) / 2;
   } else {
-    const auto vertex = common_vertex(place.triangle, end.triangle, end.triangle);
+    if (!vertex) vertex = common_vertex(place.triangle, end.triangle, end.triangle);
     if (!vertex) return std::nullopt;
-    const ChartPlace begin{place.triangle, place.point};
     const FanPlace from = seen_from(*vertex, begin), to = seen_from(*vertex, end);
     const FanStep step = step_between(from.turn(), from.fan.index, to.turn(), to.fan.index,
                                       from.fan.size, from.fan.is_closed);

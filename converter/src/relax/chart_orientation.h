@@ -52,6 +52,7 @@ class ParameterChart {
   FanPlace seen_from(std::uint32_t vertex, const ChartPlace& place) const;
   std::optional<std::uint32_t> common_vertex(std::uint32_t s, std::uint32_t t,
                                              std::uint32_t u) const;
+  std::optional<std::uint32_t> narrow_cone(const ChartPlace& place, std::uint32_t triangle) const;
   bool is_positive_in_fan(const FanPlace& a, const FanPlace& b, const FanPlace& c) const;
   std::optional<remesh::LatticePoint> unfold(const ChartPlace& place, std::uint32_t triangle) const;
 

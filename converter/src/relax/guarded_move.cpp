@@ -24,6 +24,10 @@ void GuardedMove::move(SurfaceVertices& vertices, const Steps& steps) {
   retry(vertices, steps);
 }
 
+bool GuardedMove::was_positive(const SurfaceVertices& vertices, const Triangle& t) const {
+  return vertices.is_positive(before_[t[0]].chart, before_[t[1]].chart, before_[t[2]].chart);
+}
+
 void GuardedMove::take_back(SurfaceVertices& vertices) {
   const std::vector<Triangle>& triangles = vertices.connectivity().triangles;
   is_back_.assign(vertices.size(), 0);
@@ -35,7 +39,8 @@ void GuardedMove::take_back(SurfaceVertices& vertices) {
       const auto any = [&](const std::vector<std::uint8_t>& flags) {
         return flags[triangles[f][0]] || flags[triangles[f][1]] || flags[triangles[f][2]];
       };
-      is_turned_[f] = any(is_dirty_) && !vertices.is_positive(triangles[f]);
+      is_turned_[f] = any(is_dirty_) && !vertices.is_positive(triangles[f]) &&
+                      was_positive(vertices, triangles[f]);
     });
     std::ranges::fill(is_dirty_, std::uint8_t{0});
     again = false;
@@ -84,12 +89,16 @@ bool GuardedMove::try_alone(SurfaceVertices& vertices, const Steps& steps,
   const std::uint32_t v = back_[index];
   const std::vector<Triangle>& triangles = vertices.connectivity().triangles;
   const SurfaceVertices::Place start = vertices.place(v);
+  const auto count_turned = [&] {
+    return std::count_if(faces_.begin() + first_face_[index],
+                         faces_.begin() + first_face_[index + 1],
+                         [&](std::uint32_t f) { return !vertices.is_positive(triangles[f]); });
+  };
+  const auto turned = count_turned();
   double share = 0.5;
   for (int i = 0; i < kShares; ++i, share /= 2) {
     vertices.walk(v, share * steps.steps[v], steps.normals[v]);
-    if (std::all_of(faces_.begin() + first_face_[index], faces_.begin() + first_face_[index + 1],
-                    [&](std::uint32_t f) { return vertices.is_positive(triangles[f]); }))
-      return true;
+    if (count_turned() <= turned) return true;
     vertices.put(v, start);
   }
   return false;

@@ -11,8 +11,9 @@ namespace zerotree::relax {
 
 /// Takes every step that leaves the triangles positive in the parameter domain. First all vertices
 /// move; those of triangles that turned over go back, until none has; then these try parts of their
-/// steps one after the other. Triangles that were not positive before do not get worse. The result
-/// does not depend on the number of threads. Meant to be reused: holds scratch memory.
+/// steps one after the other. Triangles that were not positive before get no say, but no more of
+/// them arise. The result does not depend on the number of threads. Meant to be reused: holds
+/// scratch memory.
 class GuardedMove {
  public:
   void move(SurfaceVertices& vertices, const Steps& steps);
@@ -21,6 +22,7 @@ class GuardedMove {
 
  private:
   void take_back(SurfaceVertices& vertices);
+  bool was_positive(const SurfaceVertices& vertices, const Triangle& t) const;
   void retry(SurfaceVertices& vertices, const Steps& steps);
   bool try_alone(SurfaceVertices& vertices, const Steps& steps, std::uint32_t vertex) const;
   void gather_faces(const SurfaceVertices& vertices);

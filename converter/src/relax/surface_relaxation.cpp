@@ -11,12 +11,12 @@ namespace {
 
 // The coarsest level that moves: steps of whole base triangles would tear the parameterisation.
 constexpr int kFirstLevel = 2;
-// The forces of a level come from the geometry so many levels finer: a level alone loses what lies
-// between its vertices, such as the tips of ears.
+// It feels the geometry so many levels finer: a level alone loses what lies between its vertices,
+// such as the tips of ears.
 constexpr int kForceDepth = 2;
 // New vertices go so often towards the place that Loop's rule predicts ...
 constexpr int kPredictionSteps = 2;
-// ... and each level ends by going this share of the way once more, which lowers tangential details
+// ... and each cycle ends by going this share of the way once more, which lowers tangential details
 // by a third.
 constexpr double kLastPrediction = 0.7;
 
@@ -35,16 +35,18 @@ RelaxedMesh relax(const domain::Domain& domain, const remesh::Parameterisation& 
   const auto relax_level = [&](int level, int count) {
     for (int i = 0; i < count; ++i) guarded.move(vertices, steps.towards_means(vertices, level));
   };
-  for (int level = first; moves && level <= levels; ++level) {
-    report_progress(progress, "relaxing", static_cast<double>(level) / (levels + 1));
+  const auto go_to_prediction = [&](double share) {
+    guarded.move(vertices, steps.towards_prediction(vertices, share));
+  };
+  for (int coarsest = first; moves; coarsest = vertices.level() - 1) {
+    report_progress(progress, "relaxing", static_cast<double>(vertices.level()) / (levels + 1));
     // A V-cycle: what is rough must be smooth before it can move together.
-    for (int l = vertices.level(); l > level; --l) relax_level(l, options.steps / 2);
-    relax_level(level, options.steps);
-    guarded.move(vertices, steps.towards_prediction(vertices, kLastPrediction));
-    if (vertices.level() == levels) continue;
+    for (int l = vertices.level(); l > coarsest; --l) relax_level(l, options.steps / 2);
+    for (int l = coarsest; l <= vertices.level(); ++l) relax_level(l, options.steps);
+    go_to_prediction(kLastPrediction);
+    if (vertices.level() == levels) break;
     vertices.refine();
-    for (int i = 0; i < kPredictionSteps; ++i)
-      guarded.move(vertices, steps.towards_prediction(vertices, 1.0));
+    for (int i = 0; i < kPredictionSteps; ++i) go_to_prediction(1.0);
   }
   result.report = {guarded.rejected(), vertices.count_negative()};
   result.mesh = {laid_out.base.topology, levels, vertices.positions()};

@@ -15,7 +15,7 @@ namespace zerotree::relax {
 
 struct RelaxOptions {
   /// Steps of each level; 0 samples the parameterisation and leaves it at that.
-  int steps = 6;
+  int steps = 4;
 };
 
 struct RelaxReport {

@@ -50,6 +50,9 @@ class SurfaceVertices {
   bool is_positive(const Triangle& t) const {
     return chart_.is_positive(charts_[t[0]], charts_[t[1]], charts_[t[2]]);
   }
+  bool is_positive(const ChartPlace& a, const ChartPlace& b, const ChartPlace& c) const {
+    return chart_.is_positive(a, b, c);
+  }
   std::uint32_t count_negative() const;
 
  private:

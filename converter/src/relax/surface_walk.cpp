@@ -72,7 +72,9 @@ SurfacePoint walk_on_surface(const InputSurface& surface, const SurfacePoint& st
                              const Eigen::Vector3d& displacement) {
   SurfacePoint point = start;
   point.edge = -1;
-  Eigen::Vector3d rest = displacement;
+  // Without the part off the plane, which unfolding would turn into it.
+  const Eigen::Vector3d plane = surface.face_normal(start.face).stableNormalized();
+  Eigen::Vector3d rest = displacement - plane.dot(displacement) * plane;
   int entry = -1;  // the edge the walk came in by
   for (int step = 0; step < kMostFaces; ++step) {
     const Eigen::Vector3d change = weights_along(surface, point.face, rest);

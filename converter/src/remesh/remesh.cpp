@@ -6,6 +6,7 @@
 #include "domain/base_size.h"
 #include "mesh/error.h"
 #include "remesh/lattice_numbering.h"
+#include "remesh/limb_search.h"
 #include "remesh/relaxation_sweeps.h"
 #include "remesh/vertex_insertion.h"
 
@@ -44,11 +45,12 @@ void count_base(const bitstream::BaseTopology& base, RemeshReport& report) {
 // Lays the mesh out; where the undo finds no room, keeps the vertex in the base and starts again.
 Parameterisation parameterise_somehow(const domain::Domain& domain, const Progress& progress,
                                       RemeshReport& report) {
-  Parameterisation result = parameterise(domain, progress);
-  if (result.stuck == 0) return result;
   domain::Domain retry = domain;
   domain::DomainOptions options;
+  options.pinned_vertices = pin_limbs(retry, progress);
   options.base_vertices = domain.report.target_base_vertices;
+  report.pinned_limbs = static_cast<std::uint32_t>(options.pinned_vertices.size());
+  Parameterisation result = parameterise(retry, progress);
   while (result.stuck > 0) {
     if (++report.rebuilds > kMaxRebuilds)
       throw Error(ExitCode::refused_topology,
@@ -89,7 +91,8 @@ bool is_sweep_due(std::size_t inserted, std::size_t all, std::size_t base_vertic
 
 }  // namespace
 
-Parameterisation parameterise(const domain::Domain& domain, const Progress& progress) {
+Parameterisation parameterise(const domain::Domain& domain, const Progress& progress,
+                              std::size_t undone) {
   Parameterisation result{build_base_domain(domain), {}, 0, 0};
   result.charts = build_base_charts(domain, result.base);
   const std::vector<Eigen::Vector3d>& positions = domain.mesh.positions;
@@ -97,11 +100,11 @@ Parameterisation parameterise(const domain::Domain& domain, const Progress& prog
   RelaxationSweeps relaxation(result.base, positions, domain.kinds);
   VertexRelaxation single_relaxation(result.base, positions, domain.kinds);
   domain::Star neighbours;
-  const std::size_t collapses = domain.collapses.size();
+  const std::size_t all = domain.collapses.size(), collapses = std::min(all, undone);
   const std::size_t base_vertices = std::max<std::size_t>(result.base.mesh_vertex.size(), 1);
   for (std::size_t i = 0; i < collapses; ++i) {
-    if (!insertion.insert(result.charts, domain.collapses[collapses - 1 - i])) {
-      result.stuck = collapses - i;
+    if (!insertion.insert(result.charts, domain.collapses[all - 1 - i])) {
+      result.stuck = all - i;
       return result;
     }
     if (insertion.is_squeezed()) {

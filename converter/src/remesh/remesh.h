@@ -26,6 +26,8 @@ struct RemeshReport {
   std::uint32_t max_valence = 0;
   int levels = 0;
   std::uint32_t finest_vertices = 0;
+  /// Vertices kept in the base because a limb would have been squeezed without them.
+  std::uint32_t pinned_limbs = 0;
   /// How often a re-inserted vertex took the place of a base vertex.
   std::uint32_t cone_swaps = 0;
   /// How often the undo found no room and the base was built again with that vertex in it.
@@ -48,8 +50,10 @@ struct RemeshResult {
   RemeshReport report;
 };
 
-/// Undoes the collapses of `domain` on its base surface, relaxing as it grows.
-Parameterisation parameterise(const domain::Domain& domain, const Progress& progress);
+/// Undoes the last `undone` collapses of `domain`, or all of them if it has fewer, on its base
+/// surface, relaxing as it grows. Faces and vertices that are not there yet have no place.
+Parameterisation parameterise(const domain::Domain& domain, const Progress& progress,
+                              std::size_t undone = static_cast<std::size_t>(-1));
 
 /// Parameterises `domain` over its base mesh, which is in the order of the stream's connectivity
 /// coder, and chooses the depth of its subdivision.

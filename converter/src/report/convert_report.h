@@ -71,8 +71,6 @@ struct ConvertReport {
   int levels = 0;
   std::uint64_t finest_vertices = 0;
   std::uint64_t cone_swaps = 0;
-  /// How often the automatic base was made larger because the remesh had lost something.
-  int base_enlargements = 0;
   /// Symmetric RMS distance of the surface with every detail unquantised, relative.
   double remeshing_error = 0;
   /// RMS distance of the input from a smooth surface through its vertices, relative: what its
@@ -81,6 +79,14 @@ struct ConvertReport {
   /// Why the remeshing error is far above that; empty if it is not.
   std::string remesh_remark;
 
+  /// Moves of the relaxation that would have turned a triangle over and were taken back.
+  std::uint64_t rejected_moves = 0;
+  /// Triangles of the finest level that are turned over in the parameter domain.
+  std::uint64_t negative_triangles = 0;
+  /// Finest faces whose normal opposes the input's at their point.
+  std::uint64_t turned_faces = 0;
+  /// Vertices kept in the base because a limb would have been squeezed without them.
+  std::uint64_t pinned_limbs = 0;
   /// Of the details that lead to level 1, 2, ...
   std::vector<LevelDetails> level_details;
 
