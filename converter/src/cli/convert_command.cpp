@@ -109,6 +109,8 @@ void add_convert(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 1024));
   command->add_option("--memory-limit", options.memory_limit, "Most memory to use: 4GiB")
       ->transform(CLI::AsSizeValue(true));
+  command->add_option("--debug-pictures", options.debug_pictures,
+                      "Folder for pictures of base, parameter lines, error and details (PNG)");
   command->callback([arguments, &exit_code] { exit_code = run_convert(*arguments); });
 }
 

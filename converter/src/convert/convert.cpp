@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "convert/debug_pictures.h"
+#include "convert/limit_mesh.h"
 #include "convert/measured_stream.h"
 #include "convert/output_files.h"
 #include "convert/prefix_table.h"
@@ -80,17 +82,7 @@ PrefixMeasurement measurement_of(const measure::SurfaceIndex& original, const Su
 
 // Distance between the input and the limit surface of the control points before quantisation.
 double remeshing_error(const SurfaceModel& model, const PrefixMeasurement& how) {
-  surface::Positions points;
-  points.reserve(model.control_points.size() * 3);
-  for (const Eigen::Vector3d& p : model.control_points)
-    for (int k = 0; k < 3; ++k) points.push_back(static_cast<float>(p[k]));
-  const surface::SubdivisionLevel& finest = model.hierarchy->level(model.hierarchy->levels());
-  exporter::Surface limit;
-  limit.positions.resize(finest.vertex_count);
-  limit.triangles = finest.triangles;
-  surface::limit_surface(finest, points, {limit.positions.data(), sizeof(Eigen::Vector3f)}, {});
-  return measure::compare_surfaces(how.original, decode::to_triangle_mesh(limit), how.distance)
-      .relative_rms();
+  return measure::compare_surfaces(how.original, limit_mesh(model), how.distance).relative_rms();
 }
 
 // Root mean squares of the details of each level, relative to the diagonal.
@@ -196,6 +188,7 @@ void write_outputs(const SurfaceModel& model, const analysis::WaveletDecompositi
 
 report::ConvertReport convert_file(const ConvertOptions& asked, const Progress& progress) {
   check_outputs(asked);
+  if (!asked.debug_pictures.empty()) make_picture_folder(asked.debug_pictures);
   ConvertOptions options = asked;
   if (options.threads == 0) options.threads = tbb::info::default_concurrency();
   const tbb::global_control thread_limit(tbb::global_control::max_allowed_parallelism,
@@ -230,6 +223,11 @@ report::ConvertReport convert_file(const ConvertOptions& asked, const Progress& 
   report.remesh_remark = report::explain_remeshing_error(report);
   const analysis::WaveletDecomposition wavelets = analyse_model(model, options, clock, progress);
   report.level_details = level_details(wavelets, report.diagonal);
+  if (!options.debug_pictures.empty())
+    clock.run("pictures", [&] {
+      write_debug_pictures(options.debug_pictures, {cleaned, original, model, wavelets, report},
+                           options.threads, progress);
+    });
   const double finest_step =
       report.diagonal *
       std::max(kStepPerRemeshingError * report.remeshing_error, kFinestRelativeStep);

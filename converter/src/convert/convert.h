@@ -45,6 +45,8 @@ struct ConvertOptions {
   int threads = 0;
   /// Refuse inputs that would need more memory than this, in bytes; 0: no limit.
   std::uint64_t memory_limit = 0;
+  /// Folder for a picture of what each stage made (debug_pictures.h); empty: none.
+  std::filesystem::path debug_pictures;
 };
 
 /// Converts and returns the report. Output files appear complete or not at all. Throws Error.

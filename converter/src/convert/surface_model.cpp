@@ -40,6 +40,8 @@ struct RemeshedSurface {
   bitstream::BaseTopology base;
   int levels = 0;
   std::vector<Eigen::Vector3d> control_points;
+  /// Only if pictures were asked for.
+  std::shared_ptr<const relax::RelaxedMesh> relaxed;
 };
 
 RemeshedSurface remesh_surface(const TriangleMesh& mesh, const ConvertOptions& options,
@@ -59,7 +61,7 @@ RemeshedSurface remesh_surface(const TriangleMesh& mesh, const ConvertOptions& o
       clock.run("remesh", [&] { return remesh::remesh(domain, remesh_options, progress); });
   note_remesh(remeshed, report);
 
-  const relax::RelaxedMesh relaxed = clock.run("relax", [&] {
+  relax::RelaxedMesh relaxed = clock.run("relax", [&] {
     return relax::relax(domain, remeshed.laid_out, remeshed.report.levels, {}, progress);
   });
   fit::FittedSurface fitted = clock.run("fit", [&] {
@@ -68,7 +70,10 @@ RemeshedSurface remesh_surface(const TriangleMesh& mesh, const ConvertOptions& o
   report.rejected_moves = relaxed.report.rejected_moves;
   report.negative_triangles = relaxed.report.negative_triangles;
   report.turned_faces = fitted.turned_faces;
-  return {relaxed.mesh.base, relaxed.mesh.levels, std::move(fitted.points)};
+  RemeshedSurface result{relaxed.mesh.base, relaxed.mesh.levels, std::move(fitted.points), nullptr};
+  if (!options.debug_pictures.empty())
+    result.relaxed = std::make_shared<const relax::RelaxedMesh>(std::move(relaxed));
+  return result;
 }
 
 }  // namespace
@@ -88,6 +93,7 @@ SurfaceModel build_surface_model(const TriangleMesh& mesh, const ConvertOptions&
   SurfaceModel model;
   model.base = remeshed.base;
   model.control_points = std::move(remeshed.control_points);
+  model.relaxed = std::move(remeshed.relaxed);
   model.hierarchy = clock.run("topology", [&] {
     return std::make_shared<const surface::SubdivisionHierarchy>(model.base, remeshed.levels,
                                                                  kTransform);

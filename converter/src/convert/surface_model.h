@@ -9,6 +9,7 @@
 #include "bitstream/base_topology.h"
 #include "convert/convert.h"
 #include "mesh/triangle_mesh.h"
+#include "relax/surface_relaxation.h"
 #include "report/convert_report.h"
 #include "report/stage_clock.h"
 #include "surface/subdivision_hierarchy.h"
@@ -22,6 +23,8 @@ struct SurfaceModel {
   std::shared_ptr<const surface::SubdivisionHierarchy> hierarchy;
   /// Of the finest level, before quantisation.
   std::vector<Eigen::Vector3d> control_points;
+  /// Only if pictures were asked for.
+  std::shared_ptr<const relax::RelaxedMesh> relaxed;
 };
 
 /// Repairs `mesh` and notes in `report` what was found and done.

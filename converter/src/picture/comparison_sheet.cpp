@@ -7,12 +7,11 @@
 #include "export/atomic_file.h"
 #include "mesh/error.h"
 #include "picture/caption_text.h"
+#include "picture/figure.h"
 
 namespace zerotree::picture {
 namespace {
 
-constexpr Pixel paper_above{251, 251, 252, 255};
-constexpr Pixel paper_below{224, 227, 232, 255};
 constexpr Pixel ink{38, 42, 50, 255};
 constexpr Pixel grey_ink{96, 102, 114, 255};
 
@@ -39,17 +38,6 @@ int automatic_columns(int panels) {
   constexpr int most = 4;
   const int rows = (panels + most - 1) / most;
   return (panels + rows - 1) / rows;
-}
-
-int panel_width(int panels, const SheetOptions& options) {
-  if (panels < 1) throw Error(ExitCode::usage, "a picture needs at least one mesh");
-  if (options.width < 64 || options.width > 32768 || options.columns < 0)
-    throw Error(ExitCode::usage, "a picture of several meshes is 64 to 32768 pixels wide");
-  const int columns = options.columns > 0 ? options.columns : automatic_columns(panels);
-  const int gap = options.width / 100;
-  const int width = (options.width - (columns + 1) * gap) / columns;
-  if (width < 8) throw Error(ExitCode::usage, "too many columns for the width of the picture");
-  return width;
 }
 
 Layout layout_of(const std::vector<CaptionedImage>& panels, const SheetOptions& options) {
@@ -91,7 +79,19 @@ void draw_caption(Image& sheet, std::string_view caption, int left, int top, con
   }
 }
 
-// A camera image only as high as the model needs, between a third and four thirds of the width.
+}  // namespace
+
+int panel_width(int panels, const SheetOptions& options) {
+  if (panels < 1) throw Error(ExitCode::usage, "a picture needs at least one mesh");
+  if (options.width < 64 || options.width > 32768 || options.columns < 0)
+    throw Error(ExitCode::usage, "a picture of several meshes is 64 to 32768 pixels wide");
+  const int columns = options.columns > 0 ? options.columns : automatic_columns(panels);
+  const int gap = options.width / 100;
+  const int width = (options.width - (columns + 1) * gap) / columns;
+  if (width < 8) throw Error(ExitCode::usage, "too many columns for the width of the picture");
+  return width;
+}
+
 int panel_height(const TriangleMesh& mesh, int width, RenderOptions render_options) {
   render_options.width = render_options.height = 1000;
   const Camera camera = choose_camera(mesh, render_options);
@@ -107,14 +107,11 @@ int panel_height(const TriangleMesh& mesh, int width, RenderOptions render_optio
   return static_cast<int>(std::lround(static_cast<float>(width) * std::clamp(ratio, 0.34F, 1.34F)));
 }
 
-}  // namespace
-
 Image side_by_side(const std::vector<CaptionedImage>& panels, const SheetOptions& options) {
   if (panels.empty()) throw Error(ExitCode::usage, "a picture needs at least one mesh");
   const Layout layout = layout_of(panels, options);
   const int cell_height = layout.panel_height + layout.caption_height + layout.gap;
-  Image sheet =
-      gradient(options.width, layout.rows * cell_height + layout.gap, paper_above, paper_below);
+  Image sheet = paper(options.width, layout.rows * cell_height + layout.gap);
   const CaptionFont bold(FontWeight::bold), regular(FontWeight::regular);
   const int count = static_cast<int>(panels.size());
   for (int i = 0; i < count; ++i) {

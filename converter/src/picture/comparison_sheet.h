@@ -33,6 +33,14 @@ struct SheetOptions {
   RenderOptions render = {};
 };
 
+/// Width in pixels of each of so many panels of a sheet. Throws Error(usage) for none or a size out
+/// of range.
+int panel_width(int panels, const SheetOptions& options);
+
+/// Height of a picture `width` pixels wide that is only as high as `mesh` needs, between a third
+/// and four thirds of the width.
+int panel_height(const TriangleMesh& mesh, int width, RenderOptions render_options);
+
 /// The images in rows with their captions under them, on light paper. All images must have one
 /// size. Throws Error(usage) if there is none or a size is out of range.
 Image side_by_side(const std::vector<CaptionedImage>& panels, const SheetOptions& options);

@@ -18,6 +18,8 @@ namespace {
 const Eigen::Vector3f clay(0.72F, 0.66F, 0.58F);
 constexpr float darkest_ground = 0.55F;
 constexpr float shadow_border = 0.12F;
+// What the border of a silhouette gets of even light: enough to keep its hue.
+constexpr float least_even_light = 0.3F;
 // Shadow on the bare ground shows noise more than shade on relief does.
 constexpr int ground_ray_factor = 3;
 
@@ -71,9 +73,14 @@ class Renderer {
     const std::optional<RayHit> hit = scene_.first_hit(camera_.eye, direction);
     if (!hit) return options_.ground_shadow ? ground(direction, sequence) : Sample::Zero();
     // Bright spots are cut before averaging, or they would stay jagged.
-    const Eigen::Vector3f colour =
-        light_.shade(lit_point(*hit, direction), options_.sky_rays, sequence).cwiseMin(1.0F);
+    const Eigen::Vector3f colour = light(lit_point(*hit, direction), sequence).cwiseMin(1.0F);
     return {colour.x(), colour.y(), colour.z(), 1.0F};
+  }
+
+  Eigen::Vector3f light(const LitPoint& point, PixelSequence& sequence) const {
+    if (!options_.even_light) return light_.shade(point, options_.sky_rays, sequence);
+    const float facing = std::max(0.0F, point.normal.dot(point.to_viewer));
+    return (least_even_light + (1.0F - least_even_light) * facing) * point.albedo;
   }
 
   // The shadow fades towards the image's border, so that no edge shows where it is cut off.

@@ -24,6 +24,8 @@ struct RenderOptions {
   double margin = 0.05;
   /// Draws the model's soft shadow on the ground it stands on.
   bool ground_shadow = true;
+  /// Lights the model from the viewer, without shadows: its colours then mean the same everywhere.
+  bool even_light = false;
   /// Samples per pixel along each axis.
   int supersampling = 4;
   /// Rays of ambient occlusion per sample.
