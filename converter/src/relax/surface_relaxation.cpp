@@ -17,6 +17,20 @@ constexpr int kForceDepth = 2;
 // New vertices go to the place that Loop's rule predicts, and each cycle ends by going this share
 // of the way once more, which lowers tangential details by a third.
 constexpr double kLastPrediction = 0.7;
+// Rounds in which the vertices of triangles that are still turned over go on.
+constexpr int kUntanglings = 12;
+
+// Where sampling or refining has left turned triangles, mostly at squeezed base vertices.
+void untangle(SurfaceVertices& vertices, RelaxationSteps& relaxation, GuardedMove& guarded) {
+  for (int round = 0; round < kUntanglings; ++round) {
+    const std::vector<std::uint8_t> tangled = vertices.mark_negative();
+    if (std::ranges::count(tangled, 1) == 0) return;
+    Steps steps = relaxation.towards_means(vertices, vertices.level());
+    for (std::size_t v = 0; v < tangled.size(); ++v)
+      if (!tangled[v]) steps.steps[v].setZero();
+    guarded.move(vertices, steps);
+  }
+}
 
 }  // namespace
 
@@ -44,6 +58,7 @@ RelaxedMesh relax(const domain::Domain& domain, const remesh::Parameterisation& 
     for (int l = vertices.level(); l > coarsest; --l) relax_level(l, count / 2);
     for (int l = coarsest; l <= vertices.level(); ++l) relax_level(l, count);
     go_to_prediction(kLastPrediction);
+    untangle(vertices, steps, guarded);
     if (vertices.level() == levels) break;
     vertices.refine();
     go_to_prediction(1.0);

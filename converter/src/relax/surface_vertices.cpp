@@ -111,6 +111,13 @@ void SurfaceVertices::walk(std::size_t v, const Eigen::Vector3d& step,
   bind(v);
 }
 
+std::vector<std::uint8_t> SurfaceVertices::mark_negative() const {
+  std::vector<std::uint8_t> marks(size(), 0);
+  for (const Triangle& t : connectivity().triangles)
+    if (!is_positive(t)) marks[t[0]] = marks[t[1]] = marks[t[2]] = 1;
+  return marks;
+}
+
 std::uint32_t SurfaceVertices::count_negative() const {
   std::uint32_t count = 0;
   for (const Triangle& t : connectivity().triangles) count += is_positive(t) ? 0u : 1u;

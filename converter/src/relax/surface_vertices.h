@@ -54,6 +54,8 @@ class SurfaceVertices {
     return chart_.is_positive(a, b, c);
   }
   std::uint32_t count_negative() const;
+  /// 1 for the vertices of triangles that are not positive.
+  std::vector<std::uint8_t> mark_negative() const;
 
  private:
   void classify(std::size_t first);
