@@ -1,5 +1,6 @@
 #include "convert/surface_model.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "analysis/wavelet_analysis.h"
@@ -44,6 +45,19 @@ struct RemeshedSurface {
   std::shared_ptr<const relax::RelaxedMesh> relaxed;
 };
 
+// Detail far below the error asked for is not worth its bits: the farther that is above the input's
+// own discretisation error, the smoother the fit.
+fit::FitOptions fit_options_for(const ConvertOptions& options,
+                                const report::ConvertReport& report) {
+  constexpr double most = 1.0;  // at which the details of the finest level count as distances
+  fit::FitOptions fit_options;
+  const double asked = options.max_error + options.max_error_metres / report.diagonal;
+  if (asked <= report.discretisation_error || report.discretisation_error <= 0) return fit_options;
+  const double ratio = asked / report.discretisation_error;
+  fit_options.smoothness.normal = std::min(most, fit_options.smoothness.normal * ratio * ratio);
+  return fit_options;
+}
+
 RemeshedSurface remesh_surface(const TriangleMesh& mesh, const ConvertOptions& options,
                                report::StageClock& clock, report::ConvertReport& report,
                                const Progress& progress) {
@@ -65,7 +79,8 @@ RemeshedSurface remesh_surface(const TriangleMesh& mesh, const ConvertOptions& o
     return relax::relax(domain, remeshed.laid_out, remeshed.report.levels, {}, progress);
   });
   fit::FittedSurface fitted = clock.run("fit", [&] {
-    return fit::fit_control_points(domain, remeshed.laid_out, relaxed, {}, progress);
+    return fit::fit_control_points(domain, remeshed.laid_out, relaxed,
+                                   fit_options_for(options, report), progress);
   });
   report.rejected_moves = relaxed.report.rejected_moves;
   report.negative_triangles = relaxed.report.negative_triangles;

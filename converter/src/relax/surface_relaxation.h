@@ -14,9 +14,9 @@
 namespace zerotree::relax {
 
 struct RelaxOptions {
-  /// Steps of each coarse level, twice those of the fine ones; 0 samples the parameterisation and
+  /// Steps of each coarse level, four times those of the fine ones; 0 samples the parameterisation and
   /// leaves it at that.
-  int steps = 4;
+  int steps = 6;
 };
 
 struct RelaxReport {
