@@ -11,8 +11,8 @@ namespace zerotree::fit {
 namespace {
 
 // Rounds of smoothing at most, and rounds without gain after which it is given up.
-constexpr int kMostRounds = 12;
-constexpr int kPatience = 4;
+constexpr int kMostRounds = 5;
+constexpr int kPatience = 2;
 // Smoothing is felt so many rings away.
 constexpr int kWatchedRings = 3;
 // How far a vertex goes towards the mean of its neighbours.
