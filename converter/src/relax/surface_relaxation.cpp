@@ -1,6 +1,8 @@
 #include "relax/surface_relaxation.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <limits>
 
 #include "relax/guarded_move.h"
 #include "relax/relaxation_steps.h"
@@ -17,14 +19,17 @@ constexpr int kForceDepth = 2;
 // New vertices go to the place that Loop's rule predicts, and each cycle ends by going this share
 // of the way once more, which lowers tangential details by a third.
 constexpr double kLastPrediction = 0.7;
-// Rounds in which the vertices of triangles that are still turned over go on.
+// Rounds at most in which the vertices of turned triangles go on, while they get fewer.
 constexpr int kUntanglings = 12;
 
 // Where sampling or refining has left turned triangles, mostly at squeezed base vertices.
 void untangle(SurfaceVertices& vertices, RelaxationSteps& relaxation, GuardedMove& guarded) {
+  auto least = std::numeric_limits<std::ptrdiff_t>::max();
   for (int round = 0; round < kUntanglings; ++round) {
     const std::vector<std::uint8_t> tangled = vertices.mark_negative();
-    if (std::ranges::count(tangled, 1) == 0) return;
+    const std::ptrdiff_t count = std::ranges::count(tangled, 1);
+    if (count == 0 || count >= least) return;
+    least = count;
     Steps steps = relaxation.towards_means(vertices, vertices.level());
     for (std::size_t v = 0; v < tangled.size(); ++v)
       if (!tangled[v]) steps.steps[v].setZero();
