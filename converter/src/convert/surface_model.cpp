@@ -45,13 +45,18 @@ struct RemeshedSurface {
   std::shared_ptr<const relax::RelaxedMesh> relaxed;
 };
 
+// The error asked for, relative to the diagonal; 0 if none was.
+double asked_error(const ConvertOptions& options, const report::ConvertReport& report) {
+  return options.max_error + options.max_error_metres / report.diagonal;
+}
+
 // Detail far below the error asked for is not worth its bits: the farther that is above the input's
 // own discretisation error, the smoother the fit.
 fit::FitOptions fit_options_for(const ConvertOptions& options,
                                 const report::ConvertReport& report) {
   constexpr double most = 1.0;  // at which the details of the finest level count as distances
   fit::FitOptions fit_options;
-  const double asked = options.max_error + options.max_error_metres / report.diagonal;
+  const double asked = asked_error(options, report);
   if (asked <= report.discretisation_error || report.discretisation_error <= 0) return fit_options;
   const double ratio = asked / report.discretisation_error;
   fit_options.smoothness.normal = std::min(most, fit_options.smoothness.normal * ratio * ratio);
@@ -69,8 +74,7 @@ RemeshedSurface remesh_surface(const TriangleMesh& mesh, const ConvertOptions& o
 
   remesh::RemeshOptions remesh_options;
   remesh_options.levels = options.levels;
-  remesh_options.goal = {options.max_error + options.max_error_metres / report.diagonal,
-                         report.discretisation_error};
+  remesh_options.goal = {asked_error(options, report), report.discretisation_error};
   const remesh::RemeshResult remeshed =
       clock.run("remesh", [&] { return remesh::remesh(domain, remesh_options, progress); });
   note_remesh(remeshed, report);

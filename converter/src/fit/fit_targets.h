@@ -30,7 +30,8 @@ struct InputSample {
   float weight = 0;
 };
 
-/// Both directions of the distance; the weights of either add up to the number of limit vertices.
+/// Both directions of the distance. The weights of either add up to the number of limit vertices,
+/// but that feet on features count more.
 struct FitTargets {
   std::vector<FootTarget> feet;
   std::vector<InputSample> samples;

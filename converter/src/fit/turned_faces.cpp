@@ -106,15 +106,6 @@ void smooth_faces(const relax::SubdividedLevel& finest, const std::vector<std::u
 
 }  // namespace
 
-std::vector<std::uint32_t> find_turned_faces(const relax::InputSurface& input,
-                                             const relax::SubdividedLevel& finest,
-                                             const std::vector<relax::SurfacePoint>& foot_points,
-                                             const Points& limit) {
-  std::vector<std::uint32_t> all(finest.triangles.size());
-  std::iota(all.begin(), all.end(), 0u);
-  return turned_among(input, smooth_normals(input), foot_points, limit, finest, all);
-}
-
 std::uint32_t turn_faces_back(const relax::InputSurface& input,
                               const relax::SubdividedLevel& finest, const LimitOperator& limit,
                               const std::vector<relax::SurfacePoint>& foot_points,

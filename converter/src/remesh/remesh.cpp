@@ -1,7 +1,6 @@
 #include "remesh/remesh.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "domain/base_size.h"
 #include "mesh/error.h"
