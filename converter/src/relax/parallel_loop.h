@@ -19,4 +19,10 @@ void for_each_index(std::size_t count, const Function& function) {
                     });
 }
 
+/// The same for turns that are worth a task each.
+template <class Function>
+void for_each_block(std::size_t count, const Function& function) {
+  tbb::parallel_for(std::size_t{0}, count, function);
+}
+
 }  // namespace zerotree::relax
