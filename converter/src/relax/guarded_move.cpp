@@ -17,7 +17,7 @@ constexpr int kShares = 3;
 void GuardedMove::move(SurfaceVertices& vertices, const Steps& steps) {
   before_.resize(vertices.size());
   for_each_index(vertices.size(), [&](std::size_t v) {
-    before_[v] = vertices.place(v);
+    before_[v] = vertices.points()[v];
     vertices.walk(v, steps.steps[v], steps.normals[v]);
   });
   take_back(vertices);
@@ -25,7 +25,7 @@ void GuardedMove::move(SurfaceVertices& vertices, const Steps& steps) {
 }
 
 bool GuardedMove::was_positive(const SurfaceVertices& vertices, const Triangle& t) const {
-  return vertices.is_positive(before_[t[0]].chart, before_[t[1]].chart, before_[t[2]].chart);
+  return vertices.is_positive(before_[t[0]], before_[t[1]], before_[t[2]]);
 }
 
 void GuardedMove::take_back(SurfaceVertices& vertices) {
@@ -88,7 +88,7 @@ bool GuardedMove::try_alone(SurfaceVertices& vertices, const Steps& steps,
                             std::uint32_t index) const {
   const std::uint32_t v = back_[index];
   const std::vector<Triangle>& triangles = vertices.connectivity().triangles;
-  const SurfaceVertices::Place start = vertices.place(v);
+  const SurfacePoint start = vertices.points()[v];
   const auto count_turned = [&] {
     return std::count_if(faces_.begin() + first_face_[index],
                          faces_.begin() + first_face_[index + 1],

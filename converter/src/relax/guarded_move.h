@@ -28,7 +28,7 @@ class GuardedMove {
   void gather_faces(const SurfaceVertices& vertices);
 
   std::uint64_t rejected_ = 0;
-  std::vector<SurfaceVertices::Place> before_;
+  std::vector<SurfacePoint> before_;
   std::vector<std::uint8_t> is_back_, is_dirty_, is_turned_;
   // The vertices that went back and their faces, one after the other.
   std::vector<std::uint32_t> back_, first_face_, faces_;

@@ -93,10 +93,9 @@ void SurfaceVertices::bind(std::size_t v) {
   charts_[v] = chart_.place_of(points_[v]);
 }
 
-void SurfaceVertices::put(std::size_t v, const Place& place) {
-  points_[v] = place.point;
-  positions_[v] = place.position;
-  charts_[v] = place.chart;
+void SurfaceVertices::put(std::size_t v, const SurfacePoint& point) {
+  points_[v] = point;
+  bind(v);
 }
 
 void SurfaceVertices::walk(std::size_t v, const Eigen::Vector3d& step,
@@ -105,7 +104,7 @@ void SurfaceVertices::walk(std::size_t v, const Eigen::Vector3d& step,
   if (freedom_[v] == Freedom::curve) {
     points_[v] = walk_along_feature(surface_, domain_.kinds, points_[v], step);
   } else {
-    const Eigen::Vector3d plane = surface_.face_normal(points_[v].face).stableNormalized();
+    const Eigen::Vector3d plane = unit(surface_.face_normal(points_[v].face));
     points_[v] = walk_on_surface(surface_, points_[v], transported(step, normal, plane));
   }
   bind(v);

@@ -36,22 +36,17 @@ class SurfaceVertices {
   const std::vector<Eigen::Vector3d>& positions() const { return positions_; }
   const std::vector<SurfacePoint>& points() const { return points_; }
 
-  /// A vertex's place, to go back to.
-  struct Place {
-    SurfacePoint point;
-    Eigen::Vector3d position;
-    ChartPlace chart;
-  };
-  Place place(std::size_t v) const { return {points_[v], positions_[v], charts_[v]}; }
-  void put(std::size_t v, const Place& place);
+  /// Puts a vertex to another point of the surface.
+  void put(std::size_t v, const SurfacePoint& point);
   /// Walks by `step`, a vector tangential at unit `normal` (of any direction on curves).
   void walk(std::size_t v, const Eigen::Vector3d& step, const Eigen::Vector3d& normal);
   /// Whether a triangle of vertices is positively oriented in the parameter domain.
   bool is_positive(const Triangle& t) const {
     return chart_.is_positive(charts_[t[0]], charts_[t[1]], charts_[t[2]]);
   }
-  bool is_positive(const ChartPlace& a, const ChartPlace& b, const ChartPlace& c) const {
-    return chart_.is_positive(a, b, c);
+  /// The same for points of the input, which need not be where vertices are.
+  bool is_positive(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c) const {
+    return chart_.is_positive(chart_.place_of(a), chart_.place_of(b), chart_.place_of(c));
   }
   std::uint32_t count_negative() const;
   /// 1 for the vertices of triangles that are not positive.

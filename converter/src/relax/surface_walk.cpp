@@ -16,26 +16,37 @@ constexpr int kMostFaces = 1000;
 // Weights this close to zero lie on the edge.
 constexpr double kOnEdge = 1e-9;
 
-// The change of a face's weights along a vector of its plane; not finite if it has no area.
-Eigen::Vector3d weights_along(const InputSurface& surface, std::uint32_t face,
-                              const Eigen::Vector3d& direction) {
-  const Eigen::Vector3d e1 = surface.corner(face, 1) - surface.corner(face, 0);
-  const Eigen::Vector3d e2 = surface.corner(face, 2) - surface.corner(face, 0);
-  const double a = e1.squaredNorm(), b = e1.dot(e2), c = e2.squaredNorm();
-  const double d1 = direction.dot(e1), d2 = direction.dot(e2), determinant = a * c - b * b;
-  const double w1 = (c * d1 - b * d2) / determinant, w2 = (a * d2 - b * d1) / determinant;
-  return {-w1 - w2, w1, w2};
-}
+// A face as the walk sees it: its edges from corner 0.
+struct FacePlane {
+  FacePlane(const InputSurface& surface, std::uint32_t face)
+      : e1(surface.corner(face, 1) - surface.corner(face, 0)),
+        e2(surface.corner(face, 2) - surface.corner(face, 0)) {}
+
+  // The change of the weights along the part of a vector in the plane; not finite if the face has
+  // no area.
+  Eigen::Vector3d weights_along(const Eigen::Vector3d& direction) const {
+    const double a = e1.squaredNorm(), b = e1.dot(e2), c = e2.squaredNorm();
+    const double d1 = direction.dot(e1), d2 = direction.dot(e2), determinant = a * c - b * b;
+    const double w1 = (c * d1 - b * d2) / determinant, w2 = (a * d2 - b * d1) / determinant;
+    return {-w1 - w2, w1, w2};
+  }
+  // ... and back: the vector that changes the weights so.
+  Eigen::Vector3d vector_of(const Eigen::Vector3d& change) const {
+    return change[1] * e1 + change[2] * e2;
+  }
+
+  Eigen::Vector3d e1, e2;
+};
 
 // Carries a vector of the plane of `face` over its edge `k` into the plane of the next face.
 Eigen::Vector3d unfold(const InputSurface& surface, std::uint32_t face, int k, std::uint32_t next,
                        int next_apex, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d start = surface.corner(face, k);
-  const Eigen::Vector3d along = (surface.corner(face, kNext[k]) - start).stableNormalized();
+  const Eigen::Vector3d along = unit(surface.corner(face, kNext[k]) - start);
   const double forward = direction.dot(along);
   const double outward = (direction - forward * along).norm();
   const Eigen::Vector3d apex = surface.corner(next, next_apex) - start;
-  const Eigen::Vector3d inward = (apex - apex.dot(along) * along).stableNormalized();
+  const Eigen::Vector3d inward = unit(apex - apex.dot(along) * along);
   return forward * along + outward * inward;
 }
 
@@ -72,12 +83,11 @@ SurfacePoint walk_on_surface(const InputSurface& surface, const SurfacePoint& st
                              const Eigen::Vector3d& displacement) {
   SurfacePoint point = start;
   point.edge = -1;
-  // Without the part off the plane, which unfolding would turn into it.
-  const Eigen::Vector3d plane = surface.face_normal(start.face).stableNormalized();
-  Eigen::Vector3d rest = displacement - plane.dot(displacement) * plane;
+  Eigen::Vector3d rest = displacement;
   int entry = -1;  // the edge the walk came in by
   for (int step = 0; step < kMostFaces; ++step) {
-    const Eigen::Vector3d change = weights_along(surface, point.face, rest);
+    const FacePlane plane(surface, point.face);
+    const Eigen::Vector3d change = plane.weights_along(rest);
     if (!change.allFinite()) return point;
     double share = 1;
     int exit = -1;
@@ -97,14 +107,13 @@ SurfacePoint walk_on_surface(const InputSurface& surface, const SurfacePoint& st
 
     const std::uint32_t next = surface.topology.adjacent[point.face][exit];
     const int back = domain::edge_towards(surface.topology, next, point.face);
-    const Eigen::Vector3d carried =
-        unfold(surface, point.face, exit, next, kPrev[back], (1 - share) * rest);
+    rest =
+        unfold(surface, point.face, exit, next, kPrev[back], (1 - share) * plane.vector_of(change));
     Eigen::Vector3d weights = Eigen::Vector3d::Zero();
     weights[back] = point.weights[kNext[exit]];
     weights[kNext[back]] = point.weights[exit];
     point.face = next;
     point.weights = weights;
-    rest = carried;
     entry = back;
   }
   return point;
@@ -117,7 +126,7 @@ SurfacePoint walk_along_feature(const InputSurface& surface,
   int edge = start.edge;
   double t = start.weights[kNext[edge]];
   const Eigen::Vector3d first = surface.corner(face, kNext[edge]) - surface.corner(face, edge);
-  double rest = displacement.dot(first.stableNormalized());
+  double rest = displacement.dot(unit(first));
   const bool forward = rest >= 0;
   rest = std::abs(rest);
   for (int step = 0; step < kMostFaces; ++step) {

@@ -10,6 +10,12 @@
 
 namespace zerotree::relax {
 
+/// `v` made of unit length; zero stays.
+inline Eigen::Vector3d unit(const Eigen::Vector3d& v) {
+  const double length = v.norm();
+  return length > 0 ? (v / length).eval() : v;
+}
+
 /// A point of the input surface.
 struct SurfacePoint {
   std::uint32_t face = 0;
