@@ -36,6 +36,7 @@ std::vector<SmoothnessPenalty> make_penalties(const relax::RelaxedMesh& relaxed,
     penalties.emplace_back(relaxed.mesh.base, relaxed.levels[static_cast<std::size_t>(l - 1)],
                            normals, points, weights);
     weights.normal = 0;
+    weights.tangential *= 4;  // as many times the area has a detail of the next coarser level
   }
   return penalties;
 }

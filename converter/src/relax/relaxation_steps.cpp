@@ -42,7 +42,11 @@ void RelaxationSteps::weigh_faces(const SurfaceVertices& vertices) {
   }
   for (Eigen::Vector3d& normal : steps_.normals) normal.stableNormalize();
   const double mean = sum > 0 ? sum / static_cast<double>(triangles.size()) : 1;
-  for (double& weight : face_weights_) weight = weight_of_area(weight / mean);
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    const auto [a, b, c] = triangles[f];
+    const float density = (vertices.density(a) + vertices.density(b) + vertices.density(c)) / 3;
+    face_weights_[f] = weight_of_area(face_weights_[f] / mean) * static_cast<double>(density);
+  }
 }
 
 // Force and stiffness of every vertex: of the surface, or of the curve for vertices on one.

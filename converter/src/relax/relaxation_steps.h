@@ -17,10 +17,11 @@ struct Steps {
 /// Damped Jacobi steps of the vertices of `level` (at most the working one) towards the mean of
 /// their neighbours, and the same for the finer vertices between them by interpolation.
 ///
-/// The energy is the sum over the working level's triangles of area^1.25 x squared edges; curves
-/// have the squared lengths of their pieces. The forces of the working level are restricted to
-/// `level` and its steps prolonged again by hat functions, vectors being turned with the surface:
-/// one smoothing step of a multigrid cycle. Meant to be reused: holds scratch memory.
+/// The energy is the sum over the working level's triangles of area^1.25 x squared edges x the
+/// density that is wanted there; curves have the squared lengths of their pieces. The forces of the
+/// working level are restricted to `level` and its steps prolonged again by hat functions, vectors
+/// being turned with the surface: one smoothing step of a multigrid cycle. Meant to be reused:
+/// holds scratch memory.
 class RelaxationSteps {
  public:
   const Steps& towards_means(const SurfaceVertices& vertices, int level);

@@ -55,7 +55,7 @@ RelaxedMesh relax(const domain::Domain& domain, const remesh::Parameterisation& 
   const auto go_to_prediction = [&](double share) {
     guarded.move(vertices, steps.towards_prediction(vertices, share));
   };
-  // The finer levels begin smooth and have most of the vertices: a quarter of the steps do.
+  // The finer levels begin smooth and have most of the vertices: one step does.
   int count = options.steps;
   for (int coarsest = first; moves; coarsest = vertices.level() - 1) {
     report_progress(progress, "relaxing", static_cast<double>(vertices.level()) / (levels + 1));
@@ -67,7 +67,7 @@ RelaxedMesh relax(const domain::Domain& domain, const remesh::Parameterisation& 
     if (vertices.level() == levels) break;
     vertices.refine();
     go_to_prediction(1.0);
-    count = (options.steps + 3) / 4;
+    count = 1;
   }
   result.report = {guarded.rejected(), vertices.count_negative()};
   result.mesh = {laid_out.base.topology, levels, vertices.positions()};

@@ -14,8 +14,8 @@
 namespace zerotree::relax {
 
 struct RelaxOptions {
-  /// Steps of each coarse level, four times those of the fine ones; 0 samples the parameterisation
-  /// and leaves it at that.
+  /// Steps of each coarse level; the fine ones, which begin smooth, take one. 0 samples the
+  /// parameterisation and leaves it at that.
   int steps = 6;
 };
 

@@ -1,14 +1,33 @@
 #include "relax/surface_vertices.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "mesh/error.h"
 #include "relax/parallel_loop.h"
+#include "relax/surface_roughness.h"
 #include "remesh/lattice_numbering.h"
 #include "remesh/lattice_sampling.h"
 
 namespace zerotree::relax {
+namespace {
+
+// Roughness beyond these makes no more difference, so that no region starves.
+constexpr float kLeastRoughness = 0.4f;
+constexpr float kMostRoughness = 4.0f;
+
+// Flat triangles follow a surface of curvature k best with a density of k^(2/3); the square root
+// leaves the parameterisation smoother.
+std::vector<float> wanted_densities(const InputSurface& input) {
+  std::vector<float> densities = relative_roughness(input);
+  for (float& density : densities)
+    density = std::sqrt(std::clamp(density, kLeastRoughness, kMostRoughness));
+  return densities;
+}
+
+}  // namespace
 
 Eigen::Vector3d transported(const Eigen::Vector3d& v, const Eigen::Vector3d& from,
                             const Eigen::Vector3d& to) {
@@ -26,7 +45,8 @@ SurfaceVertices::SurfaceVertices(const domain::Domain& domain,
       laid_out_(laid_out),
       levels_(levels),
       chart_(laid_out.base, laid_out.charts),
-      level_(level) {
+      level_(level),
+      input_density_(wanted_densities(surface_)) {
   const remesh::LatticeNumbering numbering = remesh::number_lattices(laid_out.base.topology, level);
   const remesh::LatticeSamples samples =
       remesh::sample_lattice(laid_out.charts, laid_out.base, numbering);
@@ -38,6 +58,7 @@ SurfaceVertices::SurfaceVertices(const domain::Domain& domain,
     points_[v] = {samples.faces[v], -1, samples.weights[v]};
   classify(0);
   for_each_index(points_.size(), [&](std::size_t v) { settle(v); });
+  find_densities();
 }
 
 void SurfaceVertices::refine() {
@@ -54,6 +75,17 @@ void SurfaceVertices::refine() {
     else
       points_[v] = walk_on_surface(surface_, points_[a], (positions_[b] - positions_[a]) / 2);
     settle(v);
+  });
+  find_densities();
+}
+
+void SurfaceVertices::find_densities() {
+  density_.resize(points_.size());
+  for_each_index(points_.size(), [&](std::size_t v) {
+    const Triangle& t = surface_.topology.faces[points_[v].face];
+    const Eigen::Vector3f weights = points_[v].weights.cast<float>();
+    density_[v] = weights[0] * input_density_[t[0]] + weights[1] * input_density_[t[1]] +
+                  weights[2] * input_density_[t[2]];
   });
 }
 

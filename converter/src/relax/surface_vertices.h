@@ -33,6 +33,8 @@ class SurfaceVertices {
     return levels_[static_cast<std::size_t>(level)];
   }
   Freedom freedom(std::size_t v) const { return freedom_[v]; }
+  /// How densely vertices are wanted around where this one was when its level began, 1 on the mean.
+  float density(std::size_t v) const { return density_[v]; }
   const std::vector<Eigen::Vector3d>& positions() const { return positions_; }
   const std::vector<SurfacePoint>& points() const { return points_; }
 
@@ -54,6 +56,7 @@ class SurfaceVertices {
 
  private:
   void classify(std::size_t first);
+  void find_densities();
   void settle(std::size_t v);
   void bind(std::size_t v);
 
@@ -67,6 +70,7 @@ class SurfaceVertices {
   std::vector<Eigen::Vector3d> positions_;
   std::vector<ChartPlace> charts_;
   std::vector<Freedom> freedom_;
+  std::vector<float> input_density_, density_;
 };
 
 /// Turns a tangent vector of one plane into another by the smallest rotation between their unit
