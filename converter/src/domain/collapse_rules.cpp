@@ -66,7 +66,6 @@ CollapseSite CollapseRules::site_along(std::size_t edge) const {
   }
   const int gone = (site.left != kNone ? 1 : 0) + (site.right != kNone ? 1 : 0);
   site.kept_valence = static_cast<int>(fans_.valence[site.kept]) + static_cast<int>(n) - 2 * gone;
-  site.added_irregularity = added_irregularity(site);
   return site;
 }
 
@@ -97,7 +96,9 @@ bool CollapseRules::keeps_valences(const CollapseSite& site, const CollapseCaps&
   if (!enough(site.kept, site.kept_valence) || !enough(site.left_apex, site.left_apex_valence) ||
       !enough(site.right_apex, site.right_apex_valence))
     return false;
-  if (site.added_irregularity > caps.irregularity) return false;
+  if (caps.irregularity < CollapseCaps::kAnyIrregularity &&
+      added_irregularity(site) > caps.irregularity)
+    return false;
   if (kinds_[site.kept] == VertexKind::smooth) return keeps_fan(star_, site, caps);
   return count_fan(star_, site) <= 2 * std::max(caps.sector, caps.valence);
 }
