@@ -7,15 +7,15 @@
 namespace zerotree::remesh {
 namespace {
 
-constexpr int kMostRounds = 12;
+constexpr int kMostRounds = 20;
 // Surface of so many times the mean density is squeezed.
 constexpr double kSqueezed = 4;
 // A round pins at most one vertex for so many of the base.
 constexpr std::size_t kBasePerPin = 40;
 // More pins are worth it if they lower the energy to this share; give up after so many rounds that
 // did not.
-constexpr double kGain = 0.9;
-constexpr int kPatience = 5;
+constexpr double kGain = 0.95;
+constexpr int kPatience = 8;
 
 // Surface and domain area around a vertex.
 struct StarAreas {

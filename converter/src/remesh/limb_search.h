@@ -24,7 +24,7 @@ SpreadReport measure_spread(const domain::Domain& domain, const Parameterisation
 /// Lays out `domain`, which should be a coarse version of the mesh, keeps the vertices of squeezed
 /// limbs in the base, and tries again while that helps. Returns the vertices to pin, ascending;
 /// `domain` then has the base with them. Cost: about 15 microseconds a vertex and round, of which
-/// there are up to 12.
+/// there are up to 20.
 std::vector<std::uint32_t> pin_limbs(domain::Domain& domain, const Progress& progress);
 
 }  // namespace zerotree::remesh
