@@ -18,6 +18,8 @@ constexpr double kShareOfPass = 0.5;
 // sweep.
 constexpr double kLeastShareOfPass = 0.01;
 constexpr std::size_t kGrain = 512;
+// The order of costs leaps through memory: what a collapse needs is asked for so many before.
+constexpr std::size_t kAhead = 8;
 
 class BulkDecimation {
  public:
@@ -48,8 +50,10 @@ class BulkDecimation {
       if (choices_[v].cost <= limit) order_.push_back(sort_key(choices_[v].cost, v));
     std::ranges::sort(order_);
     chosen_.clear();
-    for (std::size_t i = 0; i < order_.size() && chosen_.size() < most; ++i)
+    for (std::size_t i = 0; i < order_.size() && chosen_.size() < most; ++i) {
+      if (i + kAhead < order_.size()) prefetch(static_cast<std::uint32_t>(order_[i + kAhead]));
       choose(static_cast<std::uint32_t>(order_[i]));
+    }
     // They don't touch each other, so that their order is free: that of the vertices is the one in
     // which this and the undo find their surroundings in the cache.
     std::ranges::sort(chosen_);
@@ -101,6 +105,14 @@ class BulkDecimation {
   // Costs are not negative, so that their bits are in their order; of equals the lower vertex.
   static std::uint64_t sort_key(float cost, std::uint32_t vertex) {
     return (std::uint64_t{std::bit_cast<std::uint32_t>(cost)} << 32) | vertex;
+  }
+
+  void prefetch(std::uint32_t vertex) const {
+    const std::uint32_t face = state_.topology.face_of_vertex[vertex];
+    __builtin_prefetch(&state_.topology.faces[face]);
+    __builtin_prefetch(&state_.topology.adjacent[face]);
+    __builtin_prefetch(&choices_[vertex]);
+    __builtin_prefetch(&touched_[vertex]);
   }
 
   // Chooses the collapse for this pass unless one chosen before, or since its cost was found,

@@ -68,6 +68,7 @@ double CollapseChoice::cheapest(std::uint32_t vertex, const CollapseCaps& caps,
   rules_.visit(vertex);
   candidates_.clear();
   for (std::size_t i = 0; i < rules_.edge_count(); ++i) {
+    if (rules_.crowds(i, caps)) continue;
     const CollapseSite site = rules_.site_along(i);
     if (rules_.keeps_valences(site, caps)) candidates_.push_back({site, cost_.lower_bound(site)});
   }

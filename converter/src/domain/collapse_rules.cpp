@@ -18,8 +18,12 @@ int count_fan(const Star& star, const CollapseSite& site) {
   return static_cast<int>(star.corners.size()) - gone;
 }
 
+int valence_cap(const CollapseCaps& caps) {
+  return std::max(caps.valence, 3);
+}
+
 bool keeps_fan(const Star& star, const CollapseSite& site, const CollapseCaps& caps) {
-  return site.kept_valence <= std::max(caps.valence, 3) &&
+  return site.kept_valence <= valence_cap(caps) &&
          count_fan(star, site) <= std::max(1.0, caps.fan_share * site.kept_valence);
 }
 
@@ -46,6 +50,13 @@ void CollapseRules::visit(std::uint32_t vertex) {
   ring_.clear();
   for (const Corner& corner : star_.corners) ring_.push_back(vertex_at(topology_, corner, 1));
   if (!star_.closed) ring_.push_back(vertex_at(topology_, star_.corners.back(), 2));
+}
+
+bool CollapseRules::crowds(std::size_t edge, const CollapseCaps& caps) const {
+  const std::uint32_t kept = ring_[edge];
+  // Two faces at most go, which both vertices have.
+  const std::size_t least = fans_.valence[kept] + star_.corners.size() - 4;
+  return kinds_[kept] == VertexKind::smooth && static_cast<int>(least) > valence_cap(caps);
 }
 
 CollapseSite CollapseRules::site_along(std::size_t edge) const {
