@@ -49,7 +49,9 @@ void separate_sheets(WorkingMesh& mesh, FacePairing& pairing, CleanReport& repor
   report.turned_faces = turned.turned_faces;
   report.turned_components = turned.turned_components;
   report.split_vertices = split_vertex_fans(mesh, pairing.mates);
-  report.divided_edges = divide_shared_edges(mesh, pairing.mates);
+  // Where no edge had more than two faces, all its faces are mates.
+  if (pairing.non_manifold_edges > 0)
+    report.divided_edges = divide_shared_edges(mesh, pairing.mates);
 }
 
 void repair_areas(WorkingMesh& mesh, std::vector<std::uint32_t> mates, const CleanOptions& options,
@@ -64,8 +66,7 @@ void repair_areas(WorkingMesh& mesh, std::vector<std::uint32_t> mates, const Cle
   report.unreferenced_vertices += drop_unreferenced_vertices(mesh);
 }
 
-void describe_surface(CleanMesh& clean) {
-  SurfaceTopology topology = measure_topology(clean.mesh);
+void describe_surface(SurfaceTopology topology, CleanMesh& clean) {
   clean.face_component = std::move(topology.face_component);
   clean.component_count = topology.component_count;
   clean.report.components = topology.component_count;
@@ -95,10 +96,11 @@ CleanMesh clean_mesh(const TriangleMesh& input, const CleanOptions& options,
 
   clean.mesh = {std::move(mesh.positions), std::move(mesh.triangles)};
   clean.source_vertex = std::move(mesh.source_vertex);
-  if (const std::string problem = check_manifold(clean.mesh); !problem.empty())
-    throw Error(ExitCode::internal, "cleaning left a surface that is no manifold: " + problem +
-                                        "; please report this file");
-  describe_surface(clean);
+  SurfaceInspection inspection = inspect_surface(clean.mesh);
+  if (!inspection.problem.empty())
+    throw Error(ExitCode::internal, "cleaning left a surface that is no manifold: " +
+                                        inspection.problem + "; please report this file");
+  describe_surface(std::move(inspection.topology), clean);
   report_progress(progress, "cleaning", 1.0);
   return clean;
 }

@@ -1,45 +1,70 @@
 #include "clean/half_edges.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <numeric>
 
 namespace zerotree::clean {
+namespace {
+
+constexpr std::size_t kGrain = 4096;
+
+// The half-edges of each lower vertex, one list after the other, as keys of the higher vertex and
+// the half-edge.
+struct KeyLists {
+  std::vector<std::uint32_t> begin;  // per vertex, and the end of the last
+  std::vector<std::uint64_t> keys;
+};
+
+KeyLists list_keys(const std::vector<Triangle>& triangles, std::size_t vertex_count) {
+  KeyLists lists;
+  lists.begin.assign(vertex_count + 1, 0);
+  for (const Triangle& t : triangles)
+    for (int k = 0; k < 3; ++k) ++lists.begin[std::min(t[k], t[k == 2 ? 0 : k + 1]) + 1];
+  std::partial_sum(lists.begin.begin(), lists.begin.end(), lists.begin.begin());
+  lists.keys.resize(3 * triangles.size());
+  std::vector<std::uint32_t> fill(lists.begin.begin(), lists.begin.end() - 1);
+  std::uint32_t h = 0;
+  for (const Triangle& t : triangles)
+    for (int k = 0; k < 3; ++k, ++h) {
+      const auto [lower, higher] = std::minmax({t[k], t[k == 2 ? 0 : k + 1]});
+      lists.keys[fill[lower]++] = (std::uint64_t{higher} << 32) | h;
+    }
+  return lists;
+}
+
+}  // namespace
 
 EdgeTable make_edge_table(const std::vector<Triangle>& triangles, std::size_t vertex_count) {
-  const auto count = static_cast<std::uint32_t>(triangles.size() * 3);
-  const auto lower = [&](std::uint32_t h) {
-    return std::min(tail_of(triangles, h), head_of(triangles, h));
-  };
-  const auto higher = [&](std::uint32_t h) {
-    return std::max(tail_of(triangles, h), head_of(triangles, h));
-  };
-  std::vector<std::uint32_t> bucket(vertex_count + 1, 0);
-  for (std::uint32_t h = 0; h < count; ++h) ++bucket[lower(h) + 1];
-  for (std::size_t v = 0; v < vertex_count; ++v) bucket[v + 1] += bucket[v];
-
+  KeyLists lists = list_keys(triangles, vertex_count);
+  const auto at = [&](std::size_t v) { return lists.keys.begin() + lists.begin[v]; };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertex_count, kGrain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t v = range.begin(); v != range.end(); ++v)
+                        std::sort(at(v), at(v + 1));
+                    });
   EdgeTable table;
-  table.half_edges.resize(count);
-  std::vector<std::uint32_t> fill(bucket.begin(), bucket.end() - 1);
-  for (std::uint32_t h = 0; h < count; ++h) table.half_edges[fill[lower(h)]++] = h;
+  table.half_edges.reserve(lists.keys.size());
+  table.first.reserve(lists.keys.size() / 2 + 1);
   for (std::size_t v = 0; v < vertex_count; ++v)
-    std::sort(table.half_edges.begin() + bucket[v], table.half_edges.begin() + bucket[v + 1],
-              [&](std::uint32_t a, std::uint32_t b) {
-                const std::uint32_t x = higher(a), y = higher(b);
-                return x != y ? x < y : a < b;
-              });
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t h = table.half_edges[i];
-    const bool starts_edge = i == 0 || lower(table.half_edges[i - 1]) != lower(h) ||
-                             higher(table.half_edges[i - 1]) != higher(h);
-    if (starts_edge) table.first.push_back(i);
-  }
-  table.first.push_back(count);
+    for (std::uint32_t i = lists.begin[v]; i < lists.begin[v + 1]; ++i) {
+      if (i == lists.begin[v] || lists.keys[i] >> 32 != lists.keys[i - 1] >> 32)
+        table.first.push_back(i);
+      table.half_edges.push_back(static_cast<std::uint32_t>(lists.keys[i]));
+    }
+  table.first.push_back(static_cast<std::uint32_t>(lists.keys.size()));
   return table;
 }
 
 std::vector<std::uint32_t> find_mates(const std::vector<Triangle>& triangles,
                                       std::size_t vertex_count) {
-  const EdgeTable table = make_edge_table(triangles, vertex_count);
-  std::vector<std::uint32_t> mates(triangles.size() * 3, no_half_edge);
+  return find_mates(make_edge_table(triangles, vertex_count));
+}
+
+std::vector<std::uint32_t> find_mates(const EdgeTable& table) {
+  std::vector<std::uint32_t> mates(table.half_edges.size(), no_half_edge);
   for (std::size_t e = 0; e < table.edge_count(); ++e) {
     if (table.first[e + 1] - table.first[e] != 2) continue;
     const std::uint32_t a = table.half_edges[table.first[e]];

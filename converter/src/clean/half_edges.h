@@ -36,12 +36,13 @@ struct EdgeTable {
 };
 
 /// Groups by counting sort over the lower vertex: O(F + V), but for edges of one vertex, which are
-/// sorted. No face may have a repeated vertex.
+/// sorted, on all threads of oneTBB. 24 bytes a face in passing. No face may have a repeated vertex.
 EdgeTable make_edge_table(const std::vector<Triangle>& triangles, std::size_t vertex_count);
 
 /// Mates of the half-edges of a mesh whose edges have at most two faces: no_half_edge at boundaries
 /// and at edges with more.
 std::vector<std::uint32_t> find_mates(const std::vector<Triangle>& triangles,
                                       std::size_t vertex_count);
+std::vector<std::uint32_t> find_mates(const EdgeTable& table);
 
 }  // namespace zerotree::clean

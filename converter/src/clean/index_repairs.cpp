@@ -1,6 +1,7 @@
 #include "clean/index_repairs.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <string>
 
@@ -29,6 +30,17 @@ bool is_even(const Triangle& t) {
   return (t[0] < t[1]) + (t[1] < t[2]) + (t[2] < t[0]) == 2;
 }
 
+// Equal for 0 and -0. Numbers of few bits, as grids have, differ in their upper ones: these are
+// brought down.
+std::size_t hash_of(const Eigen::Vector3d& p) {
+  std::uint64_t hash = 0;
+  for (int i = 0; i < 3; ++i) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(p[i] + 0.0)) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 32;
+  }
+  return hash;
+}
+
 }  // namespace
 
 void check_input(const TriangleMesh& input) {
@@ -48,20 +60,20 @@ void check_input(const TriangleMesh& input) {
 }
 
 std::uint64_t weld_equal_positions(WorkingMesh& mesh) {
-  std::vector<std::uint32_t> order(mesh.positions.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Eigen::Vector3d &p = mesh.positions[a], &q = mesh.positions[b];
-    for (int i = 0; i < 3; ++i)
-      if (p[i] != q[i]) return p[i] < q[i];
-    return a < b;
-  });
+  // A hash table of vertices with open addressing, at most half full.
+  constexpr std::uint32_t empty = 0xffffffffu;
+  std::vector<std::uint32_t> table(std::bit_ceil(2 * mesh.positions.size() + 1), empty);
   std::vector<std::uint32_t> representative(mesh.positions.size());
   std::uint64_t welded = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool equal = i > 0 && mesh.positions[order[i]] == mesh.positions[order[i - 1]];
-    representative[order[i]] = equal ? representative[order[i - 1]] : order[i];
-    welded += equal;
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    std::size_t slot = hash_of(mesh.positions[v]) & (table.size() - 1);
+    while (table[slot] != empty && mesh.positions[table[slot]] != mesh.positions[v])
+      slot = (slot + 1) & (table.size() - 1);
+    if (table[slot] == empty)
+      table[slot] = v;
+    else
+      ++welded;
+    representative[v] = table[slot];
   }
   for (Triangle& t : mesh.triangles)
     for (std::uint32_t& v : t) v = representative[v];

@@ -18,8 +18,7 @@ std::string check_faces(const TriangleMesh& mesh) {
   return {};
 }
 
-std::string check_edges(const TriangleMesh& mesh) {
-  const EdgeTable edges = make_edge_table(mesh.triangles, mesh.positions.size());
+std::string check_edges(const TriangleMesh& mesh, const EdgeTable& edges) {
   for (std::size_t e = 0; e < edges.edge_count(); ++e) {
     const std::uint32_t* h = edges.half_edges.data() + edges.first[e];
     const std::uint32_t count = edges.first[e + 1] - edges.first[e];
@@ -39,8 +38,7 @@ std::string check_edges(const TriangleMesh& mesh) {
 }
 
 // Every vertex has as many half-edges leaving it as its one fan has.
-std::string check_fans(const TriangleMesh& mesh) {
-  const std::vector<std::uint32_t> mates = find_mates(mesh.triangles, mesh.positions.size());
+std::string check_fans(const TriangleMesh& mesh, const std::vector<std::uint32_t>& mates) {
   std::vector<std::uint32_t> leaving(mesh.positions.size(), 0);
   std::vector<std::uint32_t> first(mesh.positions.size(), no_half_edge);
   for (std::uint32_t h = 0; h < mates.size(); ++h) {
@@ -93,18 +91,19 @@ std::uint32_t next_on_boundary(const std::vector<std::uint32_t>& mates, std::uin
   return h;
 }
 
-}  // namespace
-
-std::string check_manifold(const TriangleMesh& mesh) {
+// Finds the mates only where faces and edges are as they should be.
+std::string check(const TriangleMesh& mesh, std::vector<std::uint32_t>& mates) {
   std::string problem = check_faces(mesh);
-  if (problem.empty()) problem = check_edges(mesh);
-  if (problem.empty()) problem = check_fans(mesh);
-  return problem;
+  if (!problem.empty()) return problem;
+  const EdgeTable edges = make_edge_table(mesh.triangles, mesh.positions.size());
+  problem = check_edges(mesh, edges);
+  if (!problem.empty()) return problem;
+  mates = find_mates(edges);
+  return check_fans(mesh, mates);
 }
 
-SurfaceTopology measure_topology(const TriangleMesh& mesh) {
+SurfaceTopology measure(const TriangleMesh& mesh, const std::vector<std::uint32_t>& mates) {
   SurfaceTopology result;
-  const std::vector<std::uint32_t> mates = find_mates(mesh.triangles, mesh.positions.size());
   result.component_count = label_components(mates, result.face_component);
   std::vector<std::uint8_t> seen(mates.size(), 0);
   for (std::uint32_t start = 0; start < mates.size(); ++start) {
@@ -122,6 +121,25 @@ SurfaceTopology measure_topology(const TriangleMesh& mesh) {
                   static_cast<std::int64_t>(result.boundary_loops) - result.euler_characteristic) /
                  2;
   return result;
+}
+
+}  // namespace
+
+std::string check_manifold(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> mates;
+  return check(mesh, mates);
+}
+
+SurfaceTopology measure_topology(const TriangleMesh& mesh) {
+  return measure(mesh, find_mates(mesh.triangles, mesh.positions.size()));
+}
+
+SurfaceInspection inspect_surface(const TriangleMesh& mesh) {
+  SurfaceInspection inspection;
+  std::vector<std::uint32_t> mates;
+  inspection.problem = check(mesh, mates);
+  if (inspection.problem.empty()) inspection.topology = measure(mesh, mates);
+  return inspection;
 }
 
 }  // namespace zerotree::clean

@@ -28,4 +28,11 @@ struct SurfaceTopology {
 /// Counts for a mesh that passes check_manifold. Linear.
 SurfaceTopology measure_topology(const TriangleMesh& mesh);
 
+/// Both at once, which costs little more than either.
+struct SurfaceInspection {
+  std::string problem;
+  SurfaceTopology topology;  ///< if there is no problem
+};
+SurfaceInspection inspect_surface(const TriangleMesh& mesh);
+
 }  // namespace zerotree::clean

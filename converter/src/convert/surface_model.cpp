@@ -5,6 +5,7 @@
 
 #include "analysis/wavelet_analysis.h"
 #include "clean/clean_mesh.h"
+#include "clean/spatial_order.h"
 #include "domain/domain.h"
 #include "fit/surface_fit.h"
 #include "relax/surface_relaxation.h"
@@ -99,8 +100,11 @@ RemeshedSurface remesh_surface(const TriangleMesh& mesh, const ConvertOptions& o
 
 TriangleMesh clean_input(const TriangleMesh& mesh, report::StageClock& clock,
                          report::ConvertReport& report, const Progress& progress) {
-  clean::CleanMesh cleaned =
-      clock.run("clean", [&] { return clean::clean_mesh(mesh, {}, progress); });
+  clean::CleanMesh cleaned = clock.run("clean", [&] {
+    clean::CleanMesh result = clean::clean_mesh(mesh, {}, progress);
+    clean::sort_spatially(result.mesh);
+    return result;
+  });
   note_clean(cleaned, report);
   return std::move(cleaned.mesh);
 }

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -17,6 +18,8 @@ constexpr double kShareOfPass = 0.5;
 // sweep.
 constexpr double kLeastShareOfPass = 0.01;
 constexpr std::size_t kGrain = 512;
+// The order of costs leaps through memory: what a collapse needs is asked for so many before.
+constexpr std::size_t kAhead = 8;
 
 class BulkDecimation {
  public:
@@ -42,14 +45,23 @@ class BulkDecimation {
     updates_ = static_cast<std::size_t>(
         std::ranges::count_if(candidates_, [&](std::uint32_t v) { return choices_[v].pass == 0; }));
     update_costs();
-    std::erase_if(candidates_, [&](std::uint32_t v) { return choices_[v].cost > limit; });
-    std::ranges::sort(candidates_, [&](std::uint32_t a, std::uint32_t b) {
-      return choices_[a].cost < choices_[b].cost || (choices_[a].cost == choices_[b].cost && a < b);
-    });
-    std::size_t done = 0;
-    for (std::size_t i = 0; i < candidates_.size() && done < most; ++i)
-      done += collapse(candidates_[i]) ? 1 : 0;
-    return done;
+    order_.clear();
+    for (std::uint32_t v : candidates_)
+      if (choices_[v].cost <= limit) order_.push_back(sort_key(choices_[v].cost, v));
+    std::ranges::sort(order_);
+    chosen_.clear();
+    for (std::size_t i = 0; i < order_.size() && chosen_.size() < most; ++i) {
+      if (i + kAhead < order_.size()) prefetch(static_cast<std::uint32_t>(order_[i + kAhead]));
+      choose(static_cast<std::uint32_t>(order_[i]));
+    }
+    // They don't touch each other, so that their order is free: that of the vertices is the one in
+    // which this and the undo find their surroundings in the cache.
+    std::ranges::sort(chosen_);
+    for (std::uint32_t v : chosen_) {
+      const CollapseSite site = searcher_.site_into(v, choices_[v].kept);
+      state_.apply(searcher_.star(), site);
+    }
+    return chosen_.size();
   }
 
   std::size_t free_count() const { return free_.size(); }
@@ -90,27 +102,38 @@ class BulkDecimation {
                       });
   }
 
-  // Does the collapse unless another one has changed a vertex of its two faces since it was chosen:
-  // if not, their valences and links are as they were then.
-  bool collapse(std::uint32_t vertex) {
+  // Costs are not negative, so that their bits are in their order; of equals the lower vertex.
+  static std::uint64_t sort_key(float cost, std::uint32_t vertex) {
+    return (std::uint64_t{std::bit_cast<std::uint32_t>(cost)} << 32) | vertex;
+  }
+
+  void prefetch(std::uint32_t vertex) const {
+    const std::uint32_t face = state_.topology.face_of_vertex[vertex];
+    __builtin_prefetch(&state_.topology.faces[face]);
+    __builtin_prefetch(&state_.topology.adjacent[face]);
+    __builtin_prefetch(&choices_[vertex]);
+    __builtin_prefetch(&touched_[vertex]);
+  }
+
+  // Chooses the collapse for this pass unless one chosen before, or since its cost was found,
+  // changes a vertex of its two faces: if not, their valences and links are as they were then.
+  void choose(std::uint32_t vertex) {
     Choice& choice = choices_[vertex];
     const auto is_touched = [&](std::uint32_t v) {
       return v != kNone && touched_[v] >= choice.pass;
     };
     const auto is_outdated = [&] {
       if (choice.pass == 0 || is_touched(vertex) || is_touched(choice.kept)) return true;
-      site_ = searcher_.site_into(vertex, choice.kept);
-      return is_touched(site_.left_apex) || is_touched(site_.right_apex);
+      const CollapseSite site = searcher_.site_into(vertex, choice.kept);
+      return is_touched(site.left_apex) || is_touched(site.right_apex);
     };
     if (is_outdated()) {
       choice.pass = 0;
-      return false;
+      return;
     }
-    const Star& star = searcher_.star();
-    for (const auto& [face, corner] : star.corners)
-      for (std::uint32_t v : state_.topology.faces[face]) touch(v);
-    state_.apply(star, site_);
-    return true;
+    touch(vertex);
+    for (std::uint32_t v : searcher_.ring()) touch(v);
+    chosen_.push_back(vertex);
   }
 
   void touch(std::uint32_t vertex) {
@@ -125,11 +148,11 @@ class BulkDecimation {
   std::vector<Choice> choices_;
   std::vector<std::uint16_t> touched_;  // the last pass that changed the vertex
   std::uint16_t pass_ = 1;
-  std::vector<std::uint32_t> free_, candidates_;
+  std::vector<std::uint32_t> free_, candidates_, chosen_;
+  std::vector<std::uint64_t> order_;
   std::vector<float> costs_;
   std::size_t updates_ = 0;
   CollapseChoice searcher_;
-  CollapseSite site_;
 };
 
 }  // namespace

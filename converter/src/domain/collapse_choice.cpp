@@ -56,7 +56,8 @@ void DecimationState::apply(const Star& star, const CollapseSite& site) {
   if (site.left_apex != kNone) --fans.valence[site.left_apex];
   if (site.right_apex != kNone) --fans.valence[site.right_apex];
   fans.valence[site.removed] = 0;
-  quadrics[site.kept].add(quadrics[site.removed]);
+  quadrics[site.kept].add(quadrics[site.removed],
+                          (positions[site.kept] - positions[site.removed]).cast<double>());
   fixed[site.removed] = 1;
   records.push_back({site.removed, site.kept, site.left, site.right});
 }
@@ -65,11 +66,20 @@ double CollapseChoice::cheapest(std::uint32_t vertex, const CollapseCaps& caps,
                                 CollapseSite& best) {
   double best_cost = std::numeric_limits<double>::infinity();
   rules_.visit(vertex);
-  cost_.visit(topology_, rules_.star());
+  candidates_.clear();
   for (std::size_t i = 0; i < rules_.edge_count(); ++i) {
+    if (rules_.crowds(i, caps)) continue;
     const CollapseSite site = rules_.site_along(i);
-    if (!rules_.keeps_valences(site, caps)) continue;
-    const double cost = cost_.of(site, caps, best_cost);
+    if (rules_.keeps_valences(site, caps)) candidates_.push_back({site, cost_.lower_bound(site)});
+  }
+  if (candidates_.empty()) return best_cost;
+  // The most promising comes first: most of the others then cost too much at least.
+  std::iter_swap(candidates_.begin(),
+                 std::ranges::min_element(candidates_, {}, &Candidate::least_cost));
+  cost_.visit(topology_, rules_.star());
+  for (const auto& [site, least_cost] : candidates_) {
+    if (least_cost > best_cost) continue;
+    const double cost = cost_.of(site, caps);
     if (!std::isfinite(cost) || cost > best_cost || (cost == best_cost && site.kept >= best.kept))
       continue;
     if (!rules_.allows(site, caps)) continue;

@@ -20,7 +20,7 @@ struct DecimationState {
   TriangleTopology& topology;
   const std::vector<VertexKind>& kinds;
   std::vector<CollapseRecord>& records;
-  std::vector<Eigen::Vector3d> positions;
+  std::vector<Eigen::Vector3f> positions;
   std::vector<Quadric> quadrics;
   double patch_area = 0;  ///< of the surface for each of `target` vertices
   VertexFans fans;
@@ -43,11 +43,20 @@ class CollapseChoice {
   CollapseSite site_into(std::uint32_t vertex, std::uint32_t kept);
   /// The faces of the vertex asked for last.
   const Star& star() const { return rules_.star(); }
+  /// Its neighbours.
+  const std::vector<std::uint32_t>& ring() const { return rules_.ring(); }
 
  private:
+  // A collapse whose valences are allowed, and what it costs at least.
+  struct Candidate {
+    CollapseSite site;
+    double least_cost;
+  };
+
   const TriangleTopology& topology_;
   CollapseRules rules_;
   CollapseCost cost_;
+  std::vector<Candidate> candidates_;
 };
 
 }  // namespace zerotree::domain

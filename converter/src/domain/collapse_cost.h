@@ -9,19 +9,19 @@
 namespace zerotree::domain {
 
 /// Positions moved and scaled into the unit ball, so that costs do not depend on the unit.
-std::vector<Eigen::Vector3d> normalised_positions(const TriangleMesh& mesh);
+std::vector<Eigen::Vector3f> normalised_positions(const TriangleMesh& mesh);
 
 /// One quadric a vertex: the planes of its faces by area, and upright planes along the boundary.
 /// Faces with a mark in `gone` are passed over.
 std::vector<Quadric> vertex_quadrics(const TriangleTopology& topology,
                                      const std::vector<std::uint8_t>& gone,
-                                     const std::vector<Eigen::Vector3d>& positions);
+                                     const std::vector<Eigen::Vector3f>& positions);
 
 /// Costs of the collapses of one vertex after the other; holds scratch memory, so one per thread.
 class CollapseCost {
  public:
   /// `patch_area`: of the surface, for each vertex that shall be left (normalised).
-  CollapseCost(const std::vector<Eigen::Vector3d>& positions, const std::vector<Quadric>& quadrics,
+  CollapseCost(const std::vector<Eigen::Vector3f>& positions, const std::vector<Quadric>& quadrics,
                double patch_area)
       : positions_(positions), quadrics_(quadrics), patch_area_(patch_area) {}
 
@@ -29,12 +29,13 @@ class CollapseCost {
   void visit(const TriangleTopology& topology, const Star& star);
 
   /// Cost of merging the vertex as `site` says: (quadrics + area term) x aspect x exp(valence
-  /// excess). Infinite if a face would flip and the caps forbid that, or if it is not below
-  /// `limit`.
+  /// excess). Infinite if a face would flip and the caps forbid that.
   ///
   /// A quadric is squared distance times area, which would give thin limbs away for nothing: a
   /// share of it counts as if it were the area of a whole patch.
-  double of(const CollapseSite& site, const CollapseCaps& caps, double limit) const;
+  double of(const CollapseSite& site, const CollapseCaps& caps) const;
+  /// Not above the cost, from the quadrics and valences alone: much cheaper.
+  double lower_bound(const CollapseSite& site) const;
 
  private:
   // A face of the star: the side opposite the vertex, and the face's doubled area vector.
@@ -43,7 +44,9 @@ class CollapseCost {
     Eigen::Vector3d p, q, area;
     double size, squared_length;
   };
-  const std::vector<Eigen::Vector3d>& positions_;
+  double distance(const CollapseSite& site) const;
+
+  const std::vector<Eigen::Vector3f>& positions_;
   const std::vector<Quadric>& quadrics_;
   double patch_area_;
   std::vector<Side> sides_;

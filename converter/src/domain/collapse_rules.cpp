@@ -18,8 +18,12 @@ int count_fan(const Star& star, const CollapseSite& site) {
   return static_cast<int>(star.corners.size()) - gone;
 }
 
+int valence_cap(const CollapseCaps& caps) {
+  return std::max(caps.valence, 3);
+}
+
 bool keeps_fan(const Star& star, const CollapseSite& site, const CollapseCaps& caps) {
-  return site.kept_valence <= std::max(caps.valence, 3) &&
+  return site.kept_valence <= valence_cap(caps) &&
          count_fan(star, site) <= std::max(1.0, caps.fan_share * site.kept_valence);
 }
 
@@ -48,6 +52,13 @@ void CollapseRules::visit(std::uint32_t vertex) {
   if (!star_.closed) ring_.push_back(vertex_at(topology_, star_.corners.back(), 2));
 }
 
+bool CollapseRules::crowds(std::size_t edge, const CollapseCaps& caps) const {
+  const std::uint32_t kept = ring_[edge];
+  // Two faces at most go, which both vertices have.
+  const std::size_t least = fans_.valence[kept] + star_.corners.size() - 4;
+  return kinds_[kept] == VertexKind::smooth && static_cast<int>(least) > valence_cap(caps);
+}
+
 CollapseSite CollapseRules::site_along(std::size_t edge) const {
   const std::size_t n = star_.corners.size();
   CollapseSite site;
@@ -66,7 +77,6 @@ CollapseSite CollapseRules::site_along(std::size_t edge) const {
   }
   const int gone = (site.left != kNone ? 1 : 0) + (site.right != kNone ? 1 : 0);
   site.kept_valence = static_cast<int>(fans_.valence[site.kept]) + static_cast<int>(n) - 2 * gone;
-  site.added_irregularity = added_irregularity(site);
   return site;
 }
 
@@ -97,7 +107,9 @@ bool CollapseRules::keeps_valences(const CollapseSite& site, const CollapseCaps&
   if (!enough(site.kept, site.kept_valence) || !enough(site.left_apex, site.left_apex_valence) ||
       !enough(site.right_apex, site.right_apex_valence))
     return false;
-  if (site.added_irregularity > caps.irregularity) return false;
+  if (caps.irregularity < CollapseCaps::kAnyIrregularity &&
+      added_irregularity(site) > caps.irregularity)
+    return false;
   if (kinds_[site.kept] == VertexKind::smooth) return keeps_fan(star_, site, caps);
   return count_fan(star_, site) <= 2 * std::max(caps.sector, caps.valence);
 }

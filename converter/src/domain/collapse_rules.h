@@ -43,7 +43,6 @@ struct CollapseSite {
   std::uint32_t left_apex = kNone, right_apex = kNone;
   int kept_valence = 0;                               ///< faces around `kept` afterwards
   int left_apex_valence = 0, right_apex_valence = 0;  ///< faces around the apices afterwards
-  int added_irregularity = 0;                         ///< of the smooth vertices of the site
 };
 
 /// Decides on the collapses of one vertex after the other; holds scratch memory, so one per thread.
@@ -57,8 +56,13 @@ class CollapseRules {
   void visit(std::uint32_t vertex);
   /// Its faces.
   const Star& star() const { return star_; }
+  /// Its neighbours, the i-th along its i-th edge.
+  const std::vector<std::uint32_t>& ring() const { return ring_; }
   /// Its edges: the i-th is the first edge of the star's i-th corner; one more in an open star.
   std::size_t edge_count() const { return star_.corners.size() + (star_.closed ? 0 : 1); }
+  /// Whether merging the vertex along its i-th edge surely gives a smooth vertex more faces than the
+  /// caps allow, as it mostly does: a look before `site_along`.
+  bool crowds(std::size_t edge, const CollapseCaps& caps) const;
   /// What merging the vertex along its i-th edge would do.
   CollapseSite site_along(std::size_t edge) const;
   /// Whether the valences afterwards are possible and keep the caps. O(1).

@@ -76,7 +76,9 @@ void gather_star(const TriangleTopology& topology, std::uint32_t vertex, Star& s
   do {
     const int corner = corner_of(topology.faces[face], vertex);
     star.corners.push_back({face, corner});
-    face = topology.adjacent[face][kPrev[corner]];
+    // All three are read, so that this does not wait for the corner.
+    const auto [over_0, over_1, over_2] = topology.adjacent[face];
+    face = corner == 0 ? over_2 : corner == 1 ? over_0 : over_1;
   } while (face != kNone && face != first);
   star.closed = face == first;
   if (star.closed) return;

@@ -41,7 +41,8 @@ struct Star {
 
 /// Which corner of `face` holds `vertex`, which must be one of its vertices.
 inline int corner_of(const Triangle& face, std::uint32_t vertex) {
-  return face[0] == vertex ? 0 : face[1] == vertex ? 1 : 2;
+  // Without a branch, which no processor could foresee.
+  return static_cast<int>(face[1] == vertex) + 2 * static_cast<int>(face[2] == vertex);
 }
 
 /// Whether edge `k` of `face` is a crease or lies on the boundary.

@@ -7,17 +7,15 @@
 namespace zerotree::remesh {
 namespace {
 
-// The coarse version has so many vertices per vertex of the base: enough to see every limb.
-constexpr std::size_t kCoarsePerBaseVertex = 10;
-constexpr int kMostRounds = 12;
+constexpr int kMostRounds = 20;
 // Surface of so many times the mean density is squeezed.
 constexpr double kSqueezed = 4;
 // A round pins at most one vertex for so many of the base.
 constexpr std::size_t kBasePerPin = 40;
 // More pins are worth it if they lower the energy to this share; give up after so many rounds that
 // did not.
-constexpr double kGain = 0.9;
-constexpr int kPatience = 5;
+constexpr double kGain = 0.95;
+constexpr int kPatience = 8;
 
 // Surface and domain area around a vertex.
 struct StarAreas {
@@ -27,17 +25,13 @@ struct StarAreas {
 }  // namespace
 
 SpreadReport measure_spread(const domain::Domain& domain, const Parameterisation& laid_out,
-                            std::size_t keep, std::size_t most) {
+                            std::size_t most) {
   const ConeCharts& charts = laid_out.charts;
-  std::vector<std::uint8_t> gone(charts.topology.faces.size(), 0);
-  for (std::size_t i = 0; i < keep; ++i)
-    for (std::uint32_t face : {domain.collapses[i].left, domain.collapses[i].right})
-      if (face != kNone) gone[face] = 1;
   double total = 0;
   std::vector<StarAreas> stars(domain.kinds.size());
-  std::vector<double> surface(gone.size(), 0.0), inside(gone.size(), 0.0);
-  for (std::uint32_t f = 0; f < gone.size(); ++f) {
-    if (gone[f]) continue;
+  const std::size_t faces = charts.topology.faces.size();
+  std::vector<double> surface(faces), inside(faces);
+  for (std::uint32_t f = 0; f < faces; ++f) {
     const Triangle& t = charts.topology.faces[f];
     const std::vector<Eigen::Vector3d>& p = domain.mesh.positions;
     surface[f] = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm();
@@ -52,9 +46,8 @@ SpreadReport measure_spread(const domain::Domain& domain, const Parameterisation
   const double mean = total / static_cast<double>(laid_out.base.topology.triangles.size());
   SpreadReport report;
   report.energy = 0;
-  for (std::uint32_t f = 0; f < gone.size(); ++f)
-    if (!gone[f])
-      report.energy += surface[f] / total * (surface[f] / mean) / std::max(inside[f], 1e-12);
+  for (std::uint32_t f = 0; f < faces; ++f)
+    report.energy += surface[f] / total * (surface[f] / mean) / std::max(inside[f], 1e-12);
 
   struct Candidate {
     double loss;
@@ -81,20 +74,17 @@ SpreadReport measure_spread(const domain::Domain& domain, const Parameterisation
 }
 
 std::vector<std::uint32_t> pin_limbs(domain::Domain& domain, const Progress& progress) {
-  const std::size_t base = domain.report.base_vertices;
-  const std::size_t undone = std::min(domain.collapses.size(), kCoarsePerBaseVertex * base);
-  const std::size_t keep = domain.collapses.size() - undone;
-  const std::size_t most = std::max<std::size_t>(1, base / kBasePerPin);
+  const std::size_t most = std::max<std::size_t>(1, domain.report.base_vertices / kBasePerPin);
   domain::DomainOptions options;
   std::vector<std::uint32_t> best;
   double least = std::numeric_limits<double>::infinity();
   int without_gain = 0;
   for (int round = 0; round < kMostRounds; ++round) {
-    const Parameterisation coarse = parameterise(domain, progress, domain.collapses.size() - keep);
-    if (coarse.stuck > 0) {
-      options.pinned_vertices.push_back(domain.collapses[coarse.stuck - 1].removed);
+    const Parameterisation laid_out = parameterise(domain, progress);
+    if (laid_out.stuck > 0) {
+      options.pinned_vertices.push_back(domain.collapses[laid_out.stuck - 1].removed);
     } else {
-      const SpreadReport spread = measure_spread(domain, coarse, keep, most);
+      const SpreadReport spread = measure_spread(domain, laid_out, most);
       const bool is_gain = spread.energy < kGain * least;
       without_gain = is_gain ? 0 : without_gain + 1;
       if (is_gain) {
@@ -106,11 +96,11 @@ std::vector<std::uint32_t> pin_limbs(domain::Domain& domain, const Progress& pro
                                      spread.squeezed.end());
     }
     std::ranges::sort(options.pinned_vertices);
-    domain::rebuild_base(domain, options, keep, progress);
+    domain::rebuild_base(domain, options, 0, progress);
   }
   if (best != options.pinned_vertices) {
     options.pinned_vertices = best;
-    domain::rebuild_base(domain, options, keep, progress);
+    domain::rebuild_base(domain, options, 0, progress);
   }
   return best;
 }

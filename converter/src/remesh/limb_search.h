@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "remesh/remesh.h"
+#include "remesh/parameterisation.h"
 
 namespace zerotree::remesh {
 
@@ -17,14 +17,14 @@ struct SpreadReport {
   std::vector<std::uint32_t> squeezed;
 };
 
-/// Looks at a parameterisation in which the first `keep` collapses of `domain` are still done.
-/// O(faces), at most `most` vertices are named.
+/// Looks at the parameterisation of `domain`. O(faces); names at most `most` vertices.
 SpreadReport measure_spread(const domain::Domain& domain, const Parameterisation& laid_out,
-                            std::size_t keep, std::size_t most);
+                            std::size_t most);
 
-/// Lays out a coarse version of the mesh, keeps the vertices of squeezed limbs in the base, and
-/// tries again while that helps. Returns the vertices to pin, ascending; `domain` then has the base
-/// with them. Cost: about a microsecond per input vertex and round, of which there are up to 12.
+/// Lays out `domain`, which should be a coarse version of the mesh, keeps the vertices of squeezed
+/// limbs in the base, and tries again while that helps. Returns the vertices to pin, ascending;
+/// `domain` then has the base with them. Cost: about 15 microseconds a vertex and round, of which
+/// there are up to 20.
 std::vector<std::uint32_t> pin_limbs(domain::Domain& domain, const Progress& progress);
 
 }  // namespace zerotree::remesh

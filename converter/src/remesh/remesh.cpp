@@ -6,19 +6,13 @@
 #include "mesh/error.h"
 #include "remesh/lattice_numbering.h"
 #include "remesh/limb_search.h"
-#include "remesh/relaxation_sweeps.h"
-#include "remesh/vertex_insertion.h"
 
 namespace zerotree::remesh {
 namespace {
 
-// Sweeps of relaxation each time that the number of vertices has doubled.
-constexpr int kSweeps = 2;
-// ... and when all vertices are there: on meshes of few vertices, CAD-like ones, this makes the
-// tangential details a fifth smaller; more of them shift stretch to where the surface bends.
-constexpr int kFinalSweeps = 4;
-// Newton steps for the neighbours of a vertex that has little room.
-constexpr int kStepsOfSqueezed = 3;
+// The base is sought on a coarse version of so many vertices per vertex of the base: enough to see
+// every limb.
+constexpr std::size_t kCoarsePerBaseVertex = 10;
 // The undo may ask for so many more base vertices before the mesh is given up.
 constexpr std::uint32_t kMaxRebuilds = 300;
 // After so many, each goes back over so many collapses more than the one before.
@@ -41,89 +35,89 @@ void count_base(const bitstream::BaseTopology& base, RemeshReport& report) {
   report.max_valence = *std::ranges::max_element(valences);
 }
 
-// Lays the mesh out; where the undo finds no room, keeps the vertex in the base and starts again.
-Parameterisation parameterise_somehow(const domain::Domain& domain, const Progress& progress,
-                                      RemeshReport& report) {
-  domain::Domain retry = domain;
-  domain::DomainOptions options;
-  options.pinned_vertices = pin_limbs(retry, progress);
-  options.base_vertices = domain.report.target_base_vertices;
-  report.pinned_limbs = static_cast<std::uint32_t>(options.pinned_vertices.size());
-  Parameterisation result = parameterise(retry, progress);
-  while (result.stuck > 0) {
-    if (++report.rebuilds > kMaxRebuilds)
+// The base is found, and everything laid out again where that finds no room, on a coarse version of
+// the mesh.
+class BaseSearch {
+ public:
+  BaseSearch(const domain::Domain& domain, const Progress& progress, RemeshReport& report)
+      : domain_(domain), progress_(progress), report_(report) {}
+
+  Parameterisation run() {
+    const std::size_t collapses = domain_.collapses.size();
+    std::size_t keep =
+        collapses - std::min(collapses, kCoarsePerBaseVertex * domain_.report.base_vertices);
+    coarse_ = domain::extract_coarse(domain_, keep);
+    for (std::uint32_t v : pin_limbs(coarse_.domain, progress_)) pin(coarse_.vertices[v]);
+    report_.pinned_limbs = static_cast<std::uint32_t>(pinned_.size());
+    while (true) {
+      const Parameterisation coarse = lay_out_coarse();
+      if (keep == 0) return coarse;
+      Parameterisation fine = refine(domain_, coarse_, coarse, progress_);
+      if (fine.stuck == 0) return fine;
+      keep = go_back(fine.stuck, domain_, [](std::uint32_t v) { return v; });
+      coarse_ = domain::extract_coarse(domain_, keep);
+      rebuild(0);
+    }
+  }
+
+ private:
+  // Where the undo finds no room, keeps the vertex in the base and starts again.
+  Parameterisation lay_out_coarse() {
+    Parameterisation result = parameterise(coarse_.domain, progress_);
+    while (result.stuck > 0) {
+      rebuild(go_back(result.stuck, coarse_.domain,
+                      [&](std::uint32_t v) { return coarse_.vertices[v]; }));
+      result = parameterise(coarse_.domain, progress_);
+    }
+    return result;
+  }
+
+  // Pins what `domain`, whose vertex v is `fine_vertex(v)`, is stuck at. Returns how many of its
+  // collapses stay.
+  template <typename FineVertex>
+  std::size_t go_back(std::size_t stuck, const domain::Domain& domain,
+                      const FineVertex& fine_vertex) {
+    if (++report_.rebuilds > kMaxRebuilds)
       throw Error(ExitCode::refused_topology,
                   "no base mesh was found over which the mesh can be laid out; ask for more base "
                   "vertices than " +
-                      std::to_string(retry.report.base_vertices));
+                      std::to_string(coarse_.domain.report.base_vertices));
     // A mesh full of features gets stuck often: go back further each time, so that it ends soon.
-    const std::size_t stuck = result.stuck - 1;
+    const std::size_t last = stuck - 1;
     const std::size_t back =
-        report.rebuilds > kPatience ? kBackSteps * (report.rebuilds - kPatience) : 0;
-    const std::size_t first = stuck - std::min(stuck, back);
-    for (std::size_t i = first; i <= stuck; ++i) {
-      const std::uint32_t removed = retry.collapses[i].removed;
-      if (i == stuck || retry.kinds[removed] == domain::VertexKind::chain)
-        options.pinned_vertices.push_back(removed);
+        report_.rebuilds > kPatience ? kBackSteps * (report_.rebuilds - kPatience) : 0;
+    const std::size_t first = last - std::min(last, back);
+    for (std::size_t i = first; i <= last; ++i) {
+      const std::uint32_t removed = domain.collapses[i].removed;
+      if (i == last || domain.kinds[removed] == domain::VertexKind::chain)
+        pin(fine_vertex(removed));
     }
-    std::ranges::sort(options.pinned_vertices);
-    domain::rebuild_base(retry, options, first, progress);
-    result = parameterise(retry, progress);
+    return first;
   }
-  return result;
-}
 
-// Gives the vertices around a squeezed one more room.
-void relax_ring(ConeCharts& charts, const domain::Star& star, VertexRelaxation& relaxation) {
-  for (const auto& [face, corner] : star.corners)
-    relaxation.relax(charts, charts.topology.faces[face][kNext[corner]], kStepsOfSqueezed);
-  const auto& [face, corner] = star.corners.front();
-  relaxation.relax(charts, charts.topology.faces[face][corner], kStepsOfSqueezed);
-}
+  void pin(std::uint32_t vertex) {
+    pinned_.insert(std::ranges::upper_bound(pinned_, vertex), vertex);
+  }
 
-// Sweeps come when half of the vertices are there, a quarter, and so on down to the base.
-bool is_sweep_due(std::size_t inserted, std::size_t all, std::size_t base_vertices) {
-  for (std::size_t due = all / 2; due >= base_vertices; due /= 2)
-    if (due == inserted) return true;
-  return false;
-}
+  void rebuild(std::size_t keep) {
+    domain::DomainOptions options;
+    options.pinned_vertices = domain::to_coarse(coarse_, pinned_);
+    domain::rebuild_base(coarse_.domain, options, keep, progress_);
+  }
+
+  const domain::Domain& domain_;
+  const Progress& progress_;
+  RemeshReport& report_;
+  domain::CoarseDomain coarse_;
+  std::vector<std::uint32_t> pinned_;  // of domain_, ascending
+};
 
 }  // namespace
-
-Parameterisation parameterise(const domain::Domain& domain, const Progress& progress,
-                              std::size_t undone) {
-  Parameterisation result{build_base_domain(domain), {}, 0, 0};
-  result.charts = build_base_charts(domain, result.base);
-  const std::vector<Eigen::Vector3d>& positions = domain.mesh.positions;
-  VertexInsertion insertion(result.base, positions, domain.kinds);
-  RelaxationSweeps relaxation(result.base, positions, domain.kinds);
-  VertexRelaxation single_relaxation(result.base, positions, domain.kinds);
-  domain::Star neighbours;
-  const std::size_t all = domain.collapses.size(), collapses = std::min(all, undone);
-  const std::size_t base_vertices = std::max<std::size_t>(result.base.mesh_vertex.size(), 1);
-  for (std::size_t i = 0; i < collapses; ++i) {
-    if (!insertion.insert(result.charts, domain.collapses[all - 1 - i])) {
-      result.stuck = all - i;
-      return result;
-    }
-    if (insertion.is_squeezed()) {
-      neighbours = insertion.star();
-      relax_ring(result.charts, neighbours, single_relaxation);
-    }
-    const bool is_last = i + 1 == collapses;
-    if (!is_last && !is_sweep_due(i + 1, collapses, base_vertices)) continue;
-    report_progress(progress, "parameterising",
-                    static_cast<double>(i) / static_cast<double>(collapses));
-    relaxation.run(result.charts, is_last ? kFinalSweeps : kSweeps);
-  }
-  result.cone_swaps = insertion.cone_swaps();
-  return result;
-}
 
 RemeshResult remesh(const domain::Domain& domain, const RemeshOptions& options,
                     const Progress& progress) {
   RemeshResult result;
-  result.laid_out = parameterise_somehow(domain, progress, result.report);
+  result.laid_out = BaseSearch(domain, progress, result.report).run();
   const Parameterisation& laid_out = result.laid_out;
   RemeshReport& report = result.report;
   report.cone_swaps = laid_out.cone_swaps;

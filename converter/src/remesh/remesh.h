@@ -7,7 +7,7 @@
 #include "domain/domain.h"
 #include "mesh/progress.h"
 #include "remesh/bijectivity.h"
-#include "remesh/cone_charts.h"
+#include "remesh/parameterisation.h"
 
 namespace zerotree::remesh {
 
@@ -36,24 +36,10 @@ struct RemeshReport {
   BijectivityReport bijectivity;
 };
 
-/// A bijection between a domain's mesh and its base surface.
-struct Parameterisation {
-  BaseDomain base;
-  ConeCharts charts;
-  std::uint32_t cone_swaps = 0;
-  /// The collapse whose undo found no room, counted from 1 in their order; 0 if all is well.
-  std::size_t stuck = 0;
-};
-
 struct RemeshResult {
   Parameterisation laid_out;
   RemeshReport report;
 };
-
-/// Undoes the last `undone` collapses of `domain`, or all of them if it has fewer, on its base
-/// surface, relaxing as it grows. Faces and vertices that are not there yet have no place.
-Parameterisation parameterise(const domain::Domain& domain, const Progress& progress,
-                              std::size_t undone = static_cast<std::size_t>(-1));
 
 /// Parameterises `domain` over its base mesh, which is in the order of the stream's connectivity
 /// coder, and chooses the depth of its subdivision.

@@ -71,20 +71,24 @@ StretchEnergy::Value StretchEnergy::evaluate(const Eigen::Vector2d& p) const {
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const Eigen::Vector2d a = ring_->points[i] - p, b = ring_->points[ring_->after(i)] - p;
     const auto& l = terms_[i].squared_lengths;
-    const double area = a.x() * b.y() - a.y() * b.x(), ab = a.dot(b);
+    const double per_area = 1 / (a.x() * b.y() - a.y() * b.x()), ab = a.dot(b);
     const double n = l[0] * ab + l[1] * (a.squaredNorm() - ab) + l[2] * (b.squaredNorm() - ab);
     // Derivatives by p: a and b move by -p; the area's gradient is the edge turned by a right
     // angle.
-    const Eigen::Vector2d area_gradient(a.y() - b.y(), b.x() - a.x());
-    const Eigen::Vector2d n_gradient = -l[0] * (a + b) + l[1] * (b - a) + l[2] * (a - b);
-    const double f = terms_[i].weight / (area * area);
+    const Eigen::Vector2d s = Eigen::Vector2d(a.y() - b.y(), b.x() - a.x()) * per_area;
+    const Eigen::Vector2d g = -l[0] * (a + b) + (l[1] - l[2]) * (b - a);
+    const double f = terms_[i].weight * per_area * per_area;
     value.energy += f * n;
-    value.gradient += f * (n_gradient - 2 * n / area * area_gradient);
-    const Eigen::Matrix2d mixed = n_gradient * area_gradient.transpose();
-    value.hessian +=
-        f * (2 * l[0] * Eigen::Matrix2d::Identity() - 2 / area * (mixed + mixed.transpose()) +
-             6 * n / (area * area) * area_gradient * area_gradient.transpose());
+    value.gradient += f * (g - 2 * n * s);
+    // With s and g the gradients of the area, as a share of it, and of N.
+    const double xx = 2 * l[0] - 4 * g.x() * s.x() + 6 * n * s.x() * s.x();
+    const double yy = 2 * l[0] - 4 * g.y() * s.y() + 6 * n * s.y() * s.y();
+    const double xy = -2 * (g.x() * s.y() + g.y() * s.x()) + 6 * n * s.x() * s.y();
+    value.hessian(0, 0) += f * xx;
+    value.hessian(1, 1) += f * yy;
+    value.hessian(0, 1) += f * xy;
   }
+  value.hessian(1, 0) = value.hessian(0, 1);
   return value;
 }
 

@@ -9,9 +9,14 @@ void VertexRelaxation::relax(ConeCharts& charts, std::uint32_t vertex, int steps
   ring_.points.clear();
   ring_.positions.clear();
   const auto add = [&](const domain::Corner& at, int k) {
-    const LatticeIsometry to_vertex = inverse(charts.transitions[at.face][at.corner]);
-    ring_.points.push_back(to_plane(apply(to_vertex, charts.corner_point(at.face, k))));
-    ring_.positions.push_back(positions_[charts.topology.faces[at.face][k]]);
+    const std::uint32_t neighbour = charts.topology.faces[at.face][k];
+    const LatticePoint& point = charts.vertices[neighbour].point;
+    const LatticeIsometry &theirs = charts.transitions[at.face][k],
+                          &mine = charts.transitions[at.face][at.corner];
+    // Most neighbours have the same chart.
+    ring_.points.push_back(
+        to_plane(theirs == mine ? point : apply(inverse(mine), apply(theirs, point))));
+    ring_.positions.push_back(positions_[neighbour]);
   };
   for (const domain::Corner& at : star_.corners) add(at, kNext[at.corner]);
   if (!star_.closed) add(star_.corners.back(), kPrev[star_.corners.back().corner]);
