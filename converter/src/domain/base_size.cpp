@@ -28,7 +28,10 @@ constexpr double kSparseRatio = 3.9;
 constexpr double kDenseRatio = 1.5;
 // A mesh of few faces has larger angles than the smooth limit surface of so few points can follow.
 constexpr double kLeastFaces = 2000;
+// Where features and limbs hold a base up, the finest mesh may have so many times those faces, or
+// so many times the input's.
 constexpr double kBaseTolerance = 1.5;
+constexpr double kMostRatio = 3;
 constexpr int kMaxLevels = 12;
 // The error of a remesh of full depth in units of the discretisation error, as measured on scans,
 // and what one level changes.
@@ -188,7 +191,8 @@ double finest_face_limit(std::size_t input_faces) {
 }
 
 int automatic_levels(std::size_t base_faces, std::size_t input_faces, const AccuracyGoal& goal) {
-  const double limit = kBaseTolerance * finest_face_limit(input_faces);
+  const double limit = std::max(kBaseTolerance * finest_face_limit(input_faces),
+                                kMostRatio * static_cast<double>(input_faces));
   double faces = 4.0 * static_cast<double>(base_faces);
   int levels = 1;
   for (; levels < kMaxLevels && (faces < kLeastFaces || 4 * faces <= limit); ++levels) faces *= 4;

@@ -48,10 +48,11 @@ struct AccuracyGoal {
 };
 
 /// Levels of subdivision for a base of `base_faces`, at least one: as many as keep the finest mesh
-/// within 1.5 times finest_face_limit, as a base that was asked for or held up by its features may
-/// be too large by so much. A mesh of fewer than 2000 faces is subdivided once more. If a larger
-/// error is asked for than such a mesh has, levels are left out, each of which makes the error
-/// three times smaller; one is added where less than half of the discretisation error is wanted.
+/// within 1.5 times finest_face_limit or 3 times the input's faces, as a base that was asked for or
+/// held up by its features may be too large by so much. A mesh of fewer than 2000 faces is
+/// subdivided once more. If a larger error is asked for than such a mesh has, levels are left out,
+/// each of which makes the error three times smaller; one is added where less than half of the
+/// discretisation error is wanted.
 int automatic_levels(std::size_t base_faces, std::size_t input_faces, const AccuracyGoal& goal);
 
 }  // namespace zerotree::domain

@@ -12,10 +12,12 @@ namespace zerotree::relax {
 namespace {
 
 // The coarsest level that moves: steps of whole base triangles would tear the parameterisation.
-constexpr int kFirstLevel = 2;
-// It feels the geometry so many levels finer: a level alone loses what lies between its vertices,
-// such as the tips of ears.
-constexpr int kForceDepth = 2;
+constexpr int kCoarsestLevel = 2;
+// Work begins so many levels finer. A level alone loses what lies between its vertices, such as the
+// tips of ears: the cycle after the first one reaches down to the coarsest level once more.
+constexpr int kFirstDepth = 1;
+// Each cycle begins smoother than the one before and takes so many times fewer steps.
+constexpr int kFewerSteps = 3;
 // New vertices go to the place that Loop's rule predicts, and each cycle ends by going this share
 // of the way once more, which lowers tangential details by a third.
 constexpr double kLastPrediction = 0.7;
@@ -44,9 +46,9 @@ RelaxedMesh relax(const domain::Domain& domain, const remesh::Parameterisation& 
   RelaxedMesh result;
   result.levels = subdivide_base(laid_out.base.topology, levels);
   const bool moves = options.steps > 0 && levels > 0;
-  const int first = std::min(levels, kFirstLevel);
+  const int first = std::min(levels, kCoarsestLevel);
   SurfaceVertices vertices(domain, laid_out, result.levels,
-                           moves ? std::min(levels, first + kForceDepth) : levels);
+                           moves ? std::min(levels, first + kFirstDepth) : levels);
   RelaxationSteps steps;
   GuardedMove guarded;
   const auto relax_level = [&](int level, int count) {
@@ -55,9 +57,8 @@ RelaxedMesh relax(const domain::Domain& domain, const remesh::Parameterisation& 
   const auto go_to_prediction = [&](double share) {
     guarded.move(vertices, steps.towards_prediction(vertices, share));
   };
-  // The finer levels begin smooth and have most of the vertices: one step does.
   int count = options.steps;
-  for (int coarsest = first; moves; coarsest = vertices.level() - 1) {
+  for (int coarsest = first; moves;) {
     report_progress(progress, "relaxing", static_cast<double>(vertices.level()) / (levels + 1));
     // A V-cycle: what is rough must be smooth before it can move together.
     for (int l = vertices.level(); l > coarsest; --l) relax_level(l, count / 2);
@@ -67,7 +68,8 @@ RelaxedMesh relax(const domain::Domain& domain, const remesh::Parameterisation& 
     if (vertices.level() == levels) break;
     vertices.refine();
     go_to_prediction(1.0);
-    count = 1;
+    count = std::max(1, count / kFewerSteps);
+    coarsest = vertices.level() == first + kFirstDepth + 1 ? first : vertices.level() - 1;
   }
   result.report = {guarded.rejected(), vertices.count_negative()};
   result.mesh = {laid_out.base.topology, levels, vertices.positions()};

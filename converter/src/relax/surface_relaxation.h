@@ -14,7 +14,7 @@
 namespace zerotree::relax {
 
 struct RelaxOptions {
-  /// Steps of each coarse level; the fine ones, which begin smooth, take one. 0 samples the
+  /// Steps of each coarse level; finer ones begin smooth and take fewer. 0 samples the
   /// parameterisation and leaves it at that.
   int steps = 6;
 };

@@ -42,7 +42,8 @@ struct InputSurface {
 };
 
 /// The point reached from `start` by going the part of `displacement` in its face's plane, straight
-/// on over edges (unfolded). Ends at creases, at the boundary and where faces have no area.
+/// on over edges (unfolded). Ends at creases and at the boundary. A face without area is crossed,
+/// but from one there is no way.
 SurfacePoint walk_on_surface(const InputSurface& surface, const SurfacePoint& start,
                              const Eigen::Vector3d& displacement);
 

@@ -8,47 +8,12 @@ namespace zerotree::relax {
 namespace {
 
 using domain::kNext;
-using domain::kNone;
 using domain::kPrev;
 
 // A step crosses a few faces; more than this means that it goes round in a fan.
 constexpr int kMostFaces = 1000;
 // Weights this close to zero lie on the edge.
 constexpr double kOnEdge = 1e-9;
-
-// A face as the walk sees it: its edges from corner 0.
-struct FacePlane {
-  FacePlane(const InputSurface& surface, std::uint32_t face)
-      : e1(surface.corner(face, 1) - surface.corner(face, 0)),
-        e2(surface.corner(face, 2) - surface.corner(face, 0)) {}
-
-  // The change of the weights along the part of a vector in the plane; not finite if the face has
-  // no area.
-  Eigen::Vector3d weights_along(const Eigen::Vector3d& direction) const {
-    const double a = e1.squaredNorm(), b = e1.dot(e2), c = e2.squaredNorm();
-    const double d1 = direction.dot(e1), d2 = direction.dot(e2), determinant = a * c - b * b;
-    const double w1 = (c * d1 - b * d2) / determinant, w2 = (a * d2 - b * d1) / determinant;
-    return {-w1 - w2, w1, w2};
-  }
-  // ... and back: the vector that changes the weights so.
-  Eigen::Vector3d vector_of(const Eigen::Vector3d& change) const {
-    return change[1] * e1 + change[2] * e2;
-  }
-
-  Eigen::Vector3d e1, e2;
-};
-
-// Carries a vector of the plane of `face` over its edge `k` into the plane of the next face.
-Eigen::Vector3d unfold(const InputSurface& surface, std::uint32_t face, int k, std::uint32_t next,
-                       int next_apex, const Eigen::Vector3d& direction) {
-  const Eigen::Vector3d start = surface.corner(face, k);
-  const Eigen::Vector3d along = unit(surface.corner(face, kNext[k]) - start);
-  const double forward = direction.dot(along);
-  const double outward = (direction - forward * along).norm();
-  const Eigen::Vector3d apex = surface.corner(next, next_apex) - start;
-  const Eigen::Vector3d inward = unit(apex - apex.dot(along) * along);
-  return forward * along + outward * inward;
-}
 
 void clamp_weights(Eigen::Vector3d& weights) {
   weights = weights.cwiseMax(0.0);
@@ -77,46 +42,6 @@ bool next_feature_edge(const InputSurface& surface, bool forward, std::uint32_t&
 
 Eigen::Vector3d InputSurface::face_normal(std::uint32_t face) const {
   return (corner(face, 1) - corner(face, 0)).cross(corner(face, 2) - corner(face, 0));
-}
-
-SurfacePoint walk_on_surface(const InputSurface& surface, const SurfacePoint& start,
-                             const Eigen::Vector3d& displacement) {
-  SurfacePoint point = start;
-  point.edge = -1;
-  Eigen::Vector3d rest = displacement;
-  int entry = -1;  // the edge the walk came in by
-  for (int step = 0; step < kMostFaces; ++step) {
-    const FacePlane plane(surface, point.face);
-    const Eigen::Vector3d change = plane.weights_along(rest);
-    if (!change.allFinite()) return point;
-    double share = 1;
-    int exit = -1;
-    for (int k = 0; k < 3; ++k) {
-      const int opposite = kPrev[k];  // the corner that edge k does not touch
-      if (k == entry || change[opposite] >= 0) continue;
-      const double reach = -point.weights[opposite] / change[opposite];
-      if (reach < share) {
-        share = std::max(reach, 0.0);
-        exit = k;
-      }
-    }
-    point.weights += share * change;
-    if (exit >= 0) point.weights[kPrev[exit]] = 0;
-    clamp_weights(point.weights);
-    if (exit < 0 || domain::is_feature(surface.topology, point.face, exit)) return point;
-
-    const std::uint32_t next = surface.topology.adjacent[point.face][exit];
-    const int back = domain::edge_towards(surface.topology, next, point.face);
-    rest =
-        unfold(surface, point.face, exit, next, kPrev[back], (1 - share) * plane.vector_of(change));
-    Eigen::Vector3d weights = Eigen::Vector3d::Zero();
-    weights[back] = point.weights[kNext[exit]];
-    weights[kNext[back]] = point.weights[exit];
-    point.face = next;
-    point.weights = weights;
-    entry = back;
-  }
-  return point;
 }
 
 SurfacePoint walk_along_feature(const InputSurface& surface,
