@@ -83,16 +83,17 @@ RemeshedSurface remesh_surface(const TriangleMesh& mesh, const ConvertOptions& o
   relax::RelaxedMesh relaxed = clock.run("relax", [&] {
     return relax::relax(domain, remeshed.laid_out, remeshed.report.levels, {}, progress);
   });
-  fit::FittedSurface fitted = clock.run("fit", [&] {
-    return fit::fit_control_points(domain, remeshed.laid_out, relaxed,
-                                   fit_options_for(options, report), progress);
-  });
   report.rejected_moves = relaxed.report.rejected_moves;
   report.negative_triangles = relaxed.report.negative_triangles;
-  report.turned_faces = fitted.turned_faces;
-  RemeshedSurface result{relaxed.mesh.base, relaxed.mesh.levels, std::move(fitted.points), nullptr};
+  RemeshedSurface result{relaxed.mesh.base, relaxed.mesh.levels, {}, nullptr};
   if (!options.debug_pictures.empty())
-    result.relaxed = std::make_shared<const relax::RelaxedMesh>(std::move(relaxed));
+    result.relaxed = std::make_shared<const relax::RelaxedMesh>(relaxed);
+  fit::FittedSurface fitted = clock.run("fit", [&] {
+    return fit::fit_control_points(domain, remeshed.laid_out, std::move(relaxed),
+                                   fit_options_for(options, report), progress);
+  });
+  report.turned_faces = fitted.turned_faces;
+  result.control_points = std::move(fitted.points);
   return result;
 }
 

@@ -43,28 +43,36 @@ LimitOperator::LimitOperator(const bitstream::BaseTopology& base,
   }
 }
 
-void LimitOperator::apply(const Points& points, Points& limit) const {
+template <class Vector>
+void LimitOperator::apply(const std::vector<Vector>& points, std::vector<Vector>& limit) const {
+  using Scalar = typename Vector::Scalar;
   limit.resize(points.size());
-  for (std::size_t v = 0; v < points.size(); ++v)
-    limit[v] = static_cast<double>(own_[v]) * points[v];
+  for (std::size_t v = 0; v < points.size(); ++v) limit[v] = Scalar{own_[v]} * points[v];
   for (std::size_t e = 0; e < level_.edges.size(); ++e) {
     const auto [a, b] = level_.edges[e];
     const std::vector<float>& weight = level_.is_feature[e] ? feature_neighbour_ : neighbour_;
-    limit[a] += static_cast<double>(weight[a]) * points[b];
-    limit[b] += static_cast<double>(weight[b]) * points[a];
+    limit[a] += Scalar{weight[a]} * points[b];
+    limit[b] += Scalar{weight[b]} * points[a];
   }
 }
 
-void LimitOperator::apply_transposed(const Points& values, Points& result) const {
+template <class Vector>
+void LimitOperator::apply_transposed(const std::vector<Vector>& values,
+                                     std::vector<Vector>& result) const {
+  using Scalar = typename Vector::Scalar;
   result.resize(values.size());
-  for (std::size_t v = 0; v < values.size(); ++v)
-    result[v] = static_cast<double>(own_[v]) * values[v];
+  for (std::size_t v = 0; v < values.size(); ++v) result[v] = Scalar{own_[v]} * values[v];
   for (std::size_t e = 0; e < level_.edges.size(); ++e) {
     const auto [a, b] = level_.edges[e];
     const std::vector<float>& weight = level_.is_feature[e] ? feature_neighbour_ : neighbour_;
-    result[b] += static_cast<double>(weight[a]) * values[a];
-    result[a] += static_cast<double>(weight[b]) * values[b];
+    result[b] += Scalar{weight[a]} * values[a];
+    result[a] += Scalar{weight[b]} * values[b];
   }
 }
+
+template void LimitOperator::apply(const Points&, Points&) const;
+template void LimitOperator::apply(const Differences&, Differences&) const;
+template void LimitOperator::apply_transposed(const Points&, Points&) const;
+template void LimitOperator::apply_transposed(const Differences&, Differences&) const;
 
 }  // namespace zerotree::fit

@@ -11,6 +11,8 @@
 namespace zerotree::fit {
 
 using Points = std::vector<Eigen::Vector3d>;
+/// What is small, so that floats do: steps and gradients.
+using Differences = std::vector<Eigen::Vector3f>;
 
 /// The limit of Loop's scheme at the vertices of one level: the rules that surface::limit_stencils
 /// has from OpenSubdiv, at 16 bytes a vertex instead of 40. Refers to the level.
@@ -19,10 +21,12 @@ class LimitOperator {
   /// `level` is one of the levels of `base`, not the base itself.
   LimitOperator(const bitstream::BaseTopology& base, const relax::SubdividedLevel& level);
 
-  /// limit = A points. O(edges).
-  void apply(const Points& points, Points& limit) const;
+  /// limit = A points. O(edges). `Vector` is Eigen::Vector3d or, for differences, Eigen::Vector3f.
+  template <class Vector>
+  void apply(const std::vector<Vector>& points, std::vector<Vector>& limit) const;
   /// result = A^T values.
-  void apply_transposed(const Points& values, Points& result) const;
+  template <class Vector>
+  void apply_transposed(const std::vector<Vector>& values, std::vector<Vector>& result) const;
 
  private:
   const relax::SubdividedLevel& level_;

@@ -15,77 +15,75 @@ constexpr double kLeastDiagonal = 1e-3;
 // Sums go over blocks of so many vertices, so that they do not depend on the threads.
 constexpr std::size_t kBlock = 4096;
 
-// The sum of weight[v] a[v] . b[v].
-template <class Weight>
-double weighted_dot(const Weight& weight, const Points& a, const Points& b) {
+// The sum of scale[v] a[v] . b[v], or without scales.
+double dot(const Differences& a, const Differences& b, const std::vector<float>* scale = nullptr) {
   std::vector<double> sums((a.size() + kBlock - 1) / kBlock, 0.0);
   relax::for_each_block(sums.size(), [&](std::size_t block) {
     const std::size_t end = std::min(a.size(), (block + 1) * kBlock);
-    for (std::size_t v = block * kBlock; v < end; ++v) sums[block] += weight(v) * a[v].dot(b[v]);
+    for (std::size_t v = block * kBlock; v < end; ++v)
+      sums[block] += a[v].cast<double>().dot(b[v].cast<double>()) *
+                     static_cast<double>(scale ? (*scale)[v] : 1.0f);
   });
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 }  // namespace
 
-NormalEquations::NormalEquations(const relax::SubdividedLevel& finest, const LimitOperator& limit,
-                                 const std::vector<SmoothnessPenalty>& penalties,
-                                 const FitTargets& targets)
-    : finest_(finest),
-      limit_(limit),
-      penalties_(penalties),
-      targets_(targets),
-      along_(targets.samples.size()) {}
-
 // A difference times the weights of its target: normal fully, tangential partly.
-Eigen::Vector3d NormalEquations::weighted(const FootTarget& target,
-                                          const Eigen::Vector3d& difference) const {
-  const auto weight = static_cast<double>(target.weight);
+template <class Vector>
+Vector NormalEquations::weighted(const FootTarget& target, const Vector& difference) const {
+  using Scalar = typename Vector::Scalar;
+  const Scalar weight = target.weight;
   if (target.is_on_feature()) return weight * difference;
-  const Eigen::Vector3d normal = target.normal.cast<double>();
-  return weight * (normal.dot(difference) * normal + targets_.tangential_share * difference);
+  const Vector normal = target.normal.template cast<Scalar>();
+  return weight * (normal.dot(difference) * normal +
+                   static_cast<Scalar>(targets_.tangential_share) * difference);
 }
 
-// The normal part of the limit point that is nearest to the input vertex.
-double NormalEquations::along_normal(const InputSample& sample) const {
-  const Triangle& t = finest_.triangles[sample.triangle];
-  const Eigen::Vector3d w = sample.corner_weights.cast<double>();
-  return sample.normal.cast<double>().dot(w[0] * at_[t[0]] + w[1] * at_[t[1]] + w[2] * at_[t[2]]);
-}
-
-void NormalEquations::pull_to_targets(Quantity quantity, const Points& points, Points& result) {
-  const bool is_residual = quantity == Quantity::residual;
+template <NormalEquations::Quantity quantity, class Vector>
+void NormalEquations::pull_to_targets(const std::vector<Vector>& points,
+                                      std::vector<Vector>& result, Scratch<Vector>& scratch) const {
+  using Scalar = typename Vector::Scalar;
+  constexpr bool is_residual = quantity == Quantity::residual;
   const std::vector<InputSample>& samples = targets_.samples;
-  limit_.apply(points, at_);
+  std::vector<Vector>& limit = scratch.limit;
+  limit_.apply(points, limit);
+  scratch.along.resize(samples.size());
   relax::for_each_index(samples.size(), [&](std::size_t s) {
-    const double at = along_normal(samples[s]);
-    const double pull =
-        is_residual ? samples[s].normal.cast<double>().dot(targets_.input[s]) - at : at;
-    along_[s] = static_cast<float>(pull) * samples[s].weight;
+    const InputSample& sample = samples[s];
+    const Triangle& t = finest_.triangles[sample.triangle];
+    const Vector w = sample.corner_weights.template cast<Scalar>();
+    Vector pull = w[0] * limit[t[0]] + w[1] * limit[t[1]] + w[2] * limit[t[2]];
+    if constexpr (is_residual) pull = targets_.input[s] - pull;
+    const Vector normal = sample.normal.template cast<Scalar>();
+    scratch.along[s] = static_cast<float>(normal.dot(pull)) * sample.weight;
   });
-  relax::for_each_index(at_.size(), [&](std::size_t v) {
+  relax::for_each_index(limit.size(), [&](std::size_t v) {
     const FootTarget& foot = targets_.feet[v];
-    at_[v] = weighted(foot, is_residual ? (foot.position - at_[v]).eval() : at_[v]);
+    if constexpr (is_residual) limit[v] = foot.position - limit[v];
+    limit[v] = weighted(foot, limit[v]);
   });
   for (std::size_t s = 0; s < samples.size(); ++s) {
     const Triangle& t = finest_.triangles[samples[s].triangle];
-    const Eigen::Vector3d pull = (along_[s] * samples[s].normal).cast<double>();
+    const Eigen::Vector3f pull = scratch.along[s] * samples[s].normal;
     for (int k = 0; k < 3; ++k)
-      at_[t[static_cast<std::size_t>(k)]] +=
-          static_cast<double>(samples[s].corner_weights[k]) * pull;
+      limit[t[static_cast<std::size_t>(k)]] +=
+          (samples[s].corner_weights[k] * pull).template cast<Scalar>();
   }
-  limit_.apply_transposed(at_, result);
+  limit_.apply_transposed(limit, result);
 }
 
-void NormalEquations::evaluate(Quantity quantity, const Points& points, Points& result) {
-  const double sign = quantity == Quantity::residual ? -1 : 1;
-  tbb::parallel_invoke([&] { pull_to_targets(quantity, points, result); },
+template <NormalEquations::Quantity quantity, class Vector>
+void NormalEquations::evaluate(const std::vector<Vector>& points, std::vector<Vector>& result,
+                               Scratch<Vector>& scratch) const {
+  tbb::parallel_invoke([&] { pull_to_targets<quantity>(points, result, scratch); },
                        [&] {
-                         penalty_.assign(points.size(), Eigen::Vector3d::Zero());
+                         scratch.penalty.assign(points.size(), Vector::Zero());
                          for (const SmoothnessPenalty& penalty : penalties_)
-                           penalty.add_gradient(sign, points, penalty_);
+                           penalty.add_gradient(quantity == Quantity::residual ? -1 : 1, points,
+                                                scratch.penalty);
                        });
-  relax::for_each_index(result.size(), [&](std::size_t v) { result[v] += penalty_[v]; });
+  relax::for_each_index(result.size(), [&](std::size_t v) { result[v] += scratch.penalty[v]; });
 }
 
 // One over an estimate of H's diagonal.
@@ -98,25 +96,33 @@ std::vector<float> NormalEquations::preconditioner() const {
   return scale;
 }
 
-void NormalEquations::solve(int iterations, Points& points) {
-  const std::vector<float> preconditioned = preconditioner();
-  const auto scale = [&](std::size_t v) { return static_cast<double>(preconditioned[v]); };
-  Points r, hd;
-  Points d(points.size(), Eigen::Vector3d::Zero());
-  evaluate(Quantity::residual, points, r);
+// In doubles, as it is a small difference of large numbers.
+Differences NormalEquations::residual(const Points& points) const {
+  Points exact;
+  Scratch<Eigen::Vector3d> scratch;
+  evaluate<Quantity::residual>(points, exact, scratch);
+  Differences rounded(exact.size());
+  for (std::size_t v = 0; v < exact.size(); ++v) rounded[v] = exact[v].cast<float>();
+  return rounded;
+}
+
+void NormalEquations::solve(int iterations, Points& points) const {
+  Differences r = residual(points), d(r.size(), Eigen::Vector3f::Zero()), hd;
+  const std::vector<float> scale = preconditioner();
+  Scratch<Eigen::Vector3f> scratch;
   double last = 0;
   for (int i = 0; i < iterations; ++i) {
-    const double rz = weighted_dot(scale, r, r);
+    const double rz = dot(r, r, &scale);
     if (!(rz > 0)) return;
-    const double beta = i == 0 ? 0 : rz / last;
+    const auto beta = static_cast<float>(i == 0 ? 0 : rz / last);
     last = rz;
-    relax::for_each_index(d.size(), [&](std::size_t v) { d[v] = scale(v) * r[v] + beta * d[v]; });
-    evaluate(Quantity::product, d, hd);
-    const double curvature = weighted_dot([](std::size_t) { return 1.0; }, d, hd);
+    relax::for_each_index(d.size(), [&](std::size_t v) { d[v] = scale[v] * r[v] + beta * d[v]; });
+    evaluate<Quantity::product>(d, hd, scratch);
+    const double curvature = dot(d, hd);
     if (!(curvature > 0)) return;
-    const double alpha = rz / curvature;
+    const auto alpha = static_cast<float>(rz / curvature);
     relax::for_each_index(d.size(), [&](std::size_t v) {
-      points[v] += alpha * d[v];
+      points[v] += (alpha * d[v]).cast<double>();
       r[v] -= alpha * hd[v];
     });
   }

@@ -20,31 +20,42 @@ struct FitTargets {
 };
 
 /// H x = b for the control points x: the distances of the limit surface from its targets and the
-/// penalties of its details, all squared. Refers to its parts; 48 bytes a control point.
+/// penalties of its details, all squared. Refers to its parts.
 class NormalEquations {
  public:
   NormalEquations(const relax::SubdividedLevel& finest, const LimitOperator& limit,
-                  const std::vector<SmoothnessPenalty>& penalties, const FitTargets& targets);
+                  const std::vector<SmoothnessPenalty>& penalties, const FitTargets& targets)
+      : finest_(finest), limit_(limit), penalties_(penalties), targets_(targets) {}
 
   /// Preconditioned conjugate gradients (Hestenes, Stiefel 1952), `iterations` of them, from
-  /// `points`. On two threads; the result does not depend on their number.
-  void solve(int iterations, Points& points);
+  /// `points`. On two threads; the result does not depend on their number. Takes 76 bytes a control
+  /// point.
+  void solve(int iterations, Points& points) const;
 
  private:
+  // Limit points and what pulls at them, by what they pull at the control points, and by how much
+  // the samples pull.
+  template <class Vector>
+  struct Scratch {
+    std::vector<Vector> limit, penalty;
+    std::vector<float> along;
+  };
   enum class Quantity { product, residual };  // H x or b - H x
-  void evaluate(Quantity quantity, const Points& points, Points& result);
-  void pull_to_targets(Quantity quantity, const Points& points, Points& result);
-  Eigen::Vector3d weighted(const FootTarget& target, const Eigen::Vector3d& difference) const;
-  double along_normal(const InputSample& sample) const;
+  template <Quantity quantity, class Vector>
+  void evaluate(const std::vector<Vector>& points, std::vector<Vector>& result,
+                Scratch<Vector>& scratch) const;
+  template <Quantity quantity, class Vector>
+  void pull_to_targets(const std::vector<Vector>& points, std::vector<Vector>& result,
+                       Scratch<Vector>& scratch) const;
+  template <class Vector>
+  Vector weighted(const FootTarget& target, const Vector& difference) const;
   std::vector<float> preconditioner() const;
+  Differences residual(const Points& points) const;
 
   const relax::SubdividedLevel& finest_;
   const LimitOperator& limit_;
   const std::vector<SmoothnessPenalty>& penalties_;
   const FitTargets& targets_;
-  Points at_;       // limit points, then what pulls at them
-  Points penalty_;  // what pulls at the control points
-  std::vector<float> along_;
 };
 
 }  // namespace zerotree::fit

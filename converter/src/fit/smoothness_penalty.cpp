@@ -113,22 +113,28 @@ void SmoothnessPenalty::set_axes(const relax::SubdividedLevel& coarse, const Poi
   }
 }
 
-void SmoothnessPenalty::add_gradient(double sign, const Points& points, Points& gradient) const {
+template <class Vector>
+void SmoothnessPenalty::add_gradient(double sign, const std::vector<Vector>& points,
+                                     std::vector<Vector>& gradient) const {
+  using Scalar = typename Vector::Scalar;
   for (std::size_t e = 0; e < stencils_.size(); ++e) {
     const Stencil& stencil = stencils_[e];
     if (stencil.count == 0) continue;
-    Eigen::Vector3d difference = points[first_odd_ + e];
+    Vector difference = points[first_odd_ + e];
     for (std::uint32_t i = 0; i < stencil.count; ++i)
-      difference -= static_cast<double>(stencil.weights[i]) * points[stencil.vertices[i]];
-    const Eigen::Vector3d axis = stencil.axis.cast<double>();
-    const double across = static_cast<double>(stencil.across_axis);
-    const double along = static_cast<double>(stencil.along_axis) - across;
-    difference = sign * (across * difference + along * axis.dot(difference) * axis);
+      difference -= Scalar{stencil.weights[i]} * points[stencil.vertices[i]];
+    const Vector axis = stencil.axis.template cast<Scalar>();
+    const Scalar across = stencil.across_axis, along = Scalar{stencil.along_axis} - across;
+    difference =
+        static_cast<Scalar>(sign) * (across * difference + along * axis.dot(difference) * axis);
     gradient[first_odd_ + e] += difference;
     for (std::uint32_t i = 0; i < stencil.count; ++i)
-      gradient[stencil.vertices[i]] -= static_cast<double>(stencil.weights[i]) * difference;
+      gradient[stencil.vertices[i]] -= Scalar{stencil.weights[i]} * difference;
   }
 }
+
+template void SmoothnessPenalty::add_gradient(double, const Points&, Points&) const;
+template void SmoothnessPenalty::add_gradient(double, const Differences&, Differences&) const;
 
 void SmoothnessPenalty::add_diagonal(std::vector<double>& diagonal) const {
   for (std::size_t e = 0; e < stencils_.size(); ++e) {

@@ -29,8 +29,10 @@ class SmoothnessPenalty {
                     const SmoothnessWeights& weights);
 
   /// Adds `sign` x D^T W D points to `gradient`, where D points are the differences and W their
-  /// weights.
-  void add_gradient(double sign, const Points& points, Points& gradient) const;
+  /// weights. `Vector` as LimitOperator has it.
+  template <class Vector>
+  void add_gradient(double sign, const std::vector<Vector>& points,
+                    std::vector<Vector>& gradient) const;
   /// Adds a bound of the diagonal of D^T W D at each vertex: what a preconditioner wants to know.
   void add_diagonal(std::vector<double>& diagonal) const;
 

@@ -1,6 +1,7 @@
 #include "fit/surface_fit.h"
 
 #include <Eigen/Geometry>
+#include <utility>
 
 #include "fit/nearest_samples.h"
 #include "fit/normal_equations.h"
@@ -13,7 +14,7 @@ namespace {
 // reproduced, the roughest noise is amplified by at most 4 (1 - (3/4)^4).
 constexpr int kInterpolationSteps = 3;
 
-Points interpolate(const LimitOperator& limit, const Points& samples) {
+Points interpolate(const LimitOperator& limit, Points samples) {
   Points points = samples, at;
   for (int i = 0; i < kInterpolationSteps; ++i) {
     limit.apply(points, at);
@@ -45,22 +46,25 @@ std::vector<SmoothnessPenalty> make_penalties(const relax::RelaxedMesh& relaxed,
 
 FittedSurface fit_control_points(const domain::Domain& domain,
                                  const remesh::Parameterisation& laid_out,
-                                 const relax::RelaxedMesh& relaxed, const FitOptions& options,
+                                 relax::RelaxedMesh relaxed, const FitOptions& options,
                                  const Progress& progress) {
   const relax::InputSurface input{domain.mesh, laid_out.charts.topology};
   const relax::SubdividedLevel& finest = relaxed.levels.back();
   const LimitOperator limit(relaxed.mesh.base, finest);
   const std::vector<SmoothnessPenalty> penalties =
       make_penalties(relaxed, relaxed.mesh.positions, options);
-  Points points = interpolate(limit, relaxed.mesh.positions), at;
-  std::vector<relax::SurfacePoint> foot_points = relaxed.points;
+  Points points = interpolate(limit, std::move(relaxed.mesh.positions));
+  std::vector<relax::SurfacePoint> foot_points = std::move(relaxed.points);
   NearestSamples nearest(input, finest, foot_points);
   std::vector<std::uint8_t> held(points.size(), 0);  // on curves and at corners
   for (int round = 0; round < options.rounds; ++round) {
     report_progress(progress, "fitting", static_cast<double>(round) / options.rounds);
-    limit.apply(points, at);
-    const FitTargets targets{follow_feet(input, domain, finest, at, foot_points),
-                             nearest.follow(at), domain.mesh.positions, options.tangential_share};
+    const FitTargets targets = [&] {
+      Points at;
+      limit.apply(points, at);
+      return FitTargets{follow_feet(input, domain, finest, at, foot_points), nearest.follow(at),
+                        domain.mesh.positions, options.tangential_share};
+    }();
     NormalEquations(finest, limit, penalties, targets).solve(options.iterations, points);
     for (std::size_t v = 0; v < held.size(); ++v) held[v] = targets.feet[v].is_on_feature();
   }
