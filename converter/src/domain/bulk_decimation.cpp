@@ -57,6 +57,8 @@ class BulkDecimation {
     // They don't touch each other, so that their order is free: that of the vertices is the one in
     // which this and the undo find their surroundings in the cache.
     std::ranges::sort(chosen_);
+    const std::size_t begin = state_.records.size();
+    state_.passes.push_back({begin, begin + chosen_.size()});
     for (std::uint32_t v : chosen_) {
       const CollapseSite site = searcher_.site_into(v, choices_[v].kept);
       state_.apply(searcher_.star(), site);
