@@ -55,4 +55,8 @@ struct AccuracyGoal {
 /// discretisation error is wanted.
 int automatic_levels(std::size_t base_faces, std::size_t input_faces, const AccuracyGoal& goal);
 
+/// Faces of the largest base that is subdivided as often as one of `base_faces`, where no goal is
+/// known.
+std::size_t largest_base_of_same_depth(std::size_t base_faces, std::size_t input_faces);
+
 }  // namespace zerotree::domain

@@ -81,6 +81,8 @@ void rebuild_base(Domain& domain, const DomainOptions& options, std::size_t keep
     undo_collapse(domain.topology, domain.collapses.back(), fan);
     domain.collapses.pop_back();
   }
+  std::erase_if(domain.passes, [&](const CollapsePass& pass) { return pass.begin >= keep; });
+  if (!domain.passes.empty()) domain.passes.back().end = std::min(domain.passes.back().end, keep);
   if (options.base_vertices > 0) domain.report.target_base_vertices = options.base_vertices;
   decimate_to_base(options, progress, domain);
 }

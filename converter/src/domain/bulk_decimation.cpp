@@ -4,9 +4,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace zerotree::domain {
 namespace {
@@ -18,8 +20,10 @@ constexpr double kShareOfPass = 0.5;
 // sweep.
 constexpr double kLeastShareOfPass = 0.01;
 constexpr std::size_t kGrain = 512;
-// The order of costs leaps through memory: what a collapse needs is asked for so many before.
-constexpr std::size_t kAhead = 8;
+// Parts of the mesh in which collapses are chosen in parallel: few enough that most lie inside one,
+// small enough for the cache. They do not depend on the number of threads.
+constexpr std::size_t kParts = 32;
+constexpr std::size_t kLeastInParallel = 16384;
 
 class BulkDecimation {
  public:
@@ -48,15 +52,14 @@ class BulkDecimation {
     order_.clear();
     for (std::uint32_t v : candidates_)
       if (choices_[v].cost <= limit) order_.push_back(sort_key(choices_[v].cost, v));
-    std::ranges::sort(order_);
     chosen_.clear();
-    for (std::size_t i = 0; i < order_.size() && chosen_.size() < most; ++i) {
-      if (i + kAhead < order_.size()) prefetch(static_cast<std::uint32_t>(order_[i + kAhead]));
-      choose(static_cast<std::uint32_t>(order_[i]));
-    }
+    if (order_.size() >= kLeastInParallel && order_.size() <= most) choose_in_parts();
+    choose_in_order(most);
     // They don't touch each other, so that their order is free: that of the vertices is the one in
     // which this and the undo find their surroundings in the cache.
     std::ranges::sort(chosen_);
+    const std::size_t begin = state_.records.size();
+    state_.passes.push_back({begin, begin + chosen_.size()});
     for (std::uint32_t v : chosen_) {
       const CollapseSite site = searcher_.site_into(v, choices_[v].kept);
       state_.apply(searcher_.star(), site);
@@ -107,33 +110,72 @@ class BulkDecimation {
     return (std::uint64_t{std::bit_cast<std::uint32_t>(cost)} << 32) | vertex;
   }
 
-  void prefetch(std::uint32_t vertex) const {
-    const std::uint32_t face = state_.topology.face_of_vertex[vertex];
-    __builtin_prefetch(&state_.topology.faces[face]);
-    __builtin_prefetch(&state_.topology.adjacent[face]);
-    __builtin_prefetch(&choices_[vertex]);
-    __builtin_prefetch(&touched_[vertex]);
+  static std::uint32_t vertex_of(std::uint64_t key) { return static_cast<std::uint32_t>(key); }
+
+  // Of the collapses in order_, by the order of costs.
+  void choose_in_order(std::size_t most) {
+    std::ranges::sort(order_);
+    for (std::size_t i = 0; i < order_.size() && chosen_.size() < most; ++i)
+      if (judge(vertex_of(order_[i]), [](std::uint32_t) { return true; }, searcher_) ==
+          Verdict::chosen)
+        chosen_.push_back(vertex_of(order_[i]));
   }
+
+  // ... in each part those that touch no vertex of another one. The others stay in order_, which
+  // must be in the order of the vertices.
+  void choose_in_parts() {
+    struct Part {
+      std::span<std::uint64_t> keys;
+      std::vector<std::uint32_t> chosen;
+      std::vector<std::uint64_t> at_border;
+    };
+    std::array<Part, kParts> parts;
+    const auto part_of = [&](std::uint32_t v) { return v * kParts / choices_.size(); };
+    for (std::size_t part = 0; part < kParts; ++part)
+      parts[part].keys = std::ranges::equal_range(
+          order_, part, {}, [&](std::uint64_t key) { return part_of(vertex_of(key)); });
+    tbb::parallel_for(std::size_t{0}, kParts, [&](std::size_t part) {
+      std::ranges::sort(parts[part].keys);
+      CollapseChoice searcher(state_);
+      for (std::uint64_t key : parts[part].keys) {
+        const Verdict verdict = judge(
+            vertex_of(key), [&](std::uint32_t v) { return part_of(v) == part; }, searcher);
+        if (verdict == Verdict::chosen) parts[part].chosen.push_back(vertex_of(key));
+        if (verdict == Verdict::at_border) parts[part].at_border.push_back(key);
+      }
+    });
+    order_.clear();
+    for (const Part& part : parts) {
+      chosen_.insert(chosen_.end(), part.chosen.begin(), part.chosen.end());
+      order_.insert(order_.end(), part.at_border.begin(), part.at_border.end());
+    }
+  }
+
+  enum class Verdict { chosen, outdated, at_border };
 
   // Chooses the collapse for this pass unless one chosen before, or since its cost was found,
   // changes a vertex of its two faces: if not, their valences and links are as they were then.
-  void choose(std::uint32_t vertex) {
+  // Changes nothing, and looks at no choice, that is not `inside`.
+  template <typename Inside>
+  Verdict judge(std::uint32_t vertex, const Inside& inside, CollapseChoice& searcher) {
     Choice& choice = choices_[vertex];
     const auto is_touched = [&](std::uint32_t v) {
       return v != kNone && touched_[v] >= choice.pass;
     };
-    const auto is_outdated = [&] {
-      if (choice.pass == 0 || is_touched(vertex) || is_touched(choice.kept)) return true;
-      const CollapseSite site = searcher_.site_into(vertex, choice.kept);
-      return is_touched(site.left_apex) || is_touched(site.right_apex);
-    };
-    if (is_outdated()) {
-      choice.pass = 0;
-      return;
-    }
+    if (choice.pass == 0 || is_touched(vertex)) return outdate(choice);
+    if (!inside(choice.kept)) return Verdict::at_border;
+    if (is_touched(choice.kept)) return outdate(choice);
+    const CollapseSite site = searcher.site_into(vertex, choice.kept);
+    if (!std::ranges::all_of(searcher.ring(), inside)) return Verdict::at_border;
+    if (is_touched(site.left_apex) || is_touched(site.right_apex)) return outdate(choice);
     touch(vertex);
-    for (std::uint32_t v : searcher_.ring()) touch(v);
-    chosen_.push_back(vertex);
+    for (std::uint32_t v : searcher.ring()) touch(v);
+    return Verdict::chosen;
+  }
+
+  static Verdict outdate(Choice& choice) {
+    choice.pass = 0;
+    return Verdict::outdated;
   }
 
   void touch(std::uint32_t vertex) {

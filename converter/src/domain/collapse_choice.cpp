@@ -35,6 +35,7 @@ DecimationState::DecimationState(Domain& domain, const std::vector<std::uint32_t
     : topology(domain.topology),
       kinds(domain.kinds),
       records(domain.collapses),
+      passes(domain.passes),
       positions(normalised_positions(domain.mesh)),
       fixed(domain.kinds.size(), 0) {
   const std::vector<std::uint8_t> gone = mark_removed_faces(domain);

@@ -20,6 +20,7 @@ struct DecimationState {
   TriangleTopology& topology;
   const std::vector<VertexKind>& kinds;
   std::vector<CollapseRecord>& records;
+  std::vector<CollapsePass>& passes;
   std::vector<Eigen::Vector3f> positions;
   std::vector<Quadric> quadrics;
   double patch_area = 0;  ///< of the surface for each of `target` vertices

@@ -108,48 +108,4 @@ std::vector<std::uint8_t> mark_removed_faces(const Domain& domain) {
   return removed;
 }
 
-void undo_collapse(TriangleTopology& topology, const CollapseRecord& collapse,
-                   std::vector<std::uint32_t>& fan) {
-  fan.clear();
-  const auto inner_face = [&](std::uint32_t gone, bool is_left) {
-    const int k = corner_of(topology.faces[gone], collapse.removed);
-    return topology.adjacent[gone][is_left ? kPrev[k] : k];
-  };
-  const bool from_left = collapse.left != kNone;
-  const std::uint32_t last = collapse.right != kNone ? inner_face(collapse.right, false) : kNone;
-  std::uint32_t face = from_left ? inner_face(collapse.left, true) : last;
-  // Without a left face the fan begins at the boundary: go there clockwise.
-  while (!from_left) {
-    const int k = corner_of(topology.faces[face], collapse.kept);
-    if (topology.adjacent[face][k] == kNone) break;
-    face = topology.adjacent[face][k];
-  }
-  while (true) {
-    fan.push_back(face);
-    if (face == last) break;
-    face = topology.adjacent[face][kPrev[corner_of(topology.faces[face], collapse.kept)]];
-    if (face == kNone) break;
-  }
-
-  const auto open_gap = [&](std::uint32_t gone, bool is_left) {
-    if (gone == kNone) return;
-    const std::uint32_t inner = inner_face(gone, is_left);
-    const int k = corner_of(topology.faces[inner], collapse.kept);
-    const int edge = is_left ? k : kPrev[k];
-    const std::uint32_t outer = topology.adjacent[inner][edge];
-    if (outer != kNone) topology.adjacent[outer][edge_towards(topology, outer, inner)] = gone;
-    topology.adjacent[inner][edge] = gone;
-    // The edge between the faces of the gap and the fan is never a feature (is_chain_step).
-    topology.creases[inner] = static_cast<std::uint8_t>(topology.creases[inner] & ~(1 << edge));
-    topology.face_of_vertex[collapse.kept] = gone;
-  };
-  open_gap(collapse.left, true);
-  open_gap(collapse.right, false);
-  for (std::uint32_t f : fan) {
-    Triangle& corners = topology.faces[f];
-    corners[corner_of(corners, collapse.kept)] = collapse.removed;
-  }
-  topology.face_of_vertex[collapse.removed] = fan.front();
-}
-
 }  // namespace zerotree::domain

@@ -1,6 +1,7 @@
 // The parameter domain of a mesh: its features, its base mesh and the way back to the mesh.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -42,6 +43,13 @@ struct CollapseRecord {
   std::uint32_t right;
 };
 
+/// The collapses from `begin` to before `end`: they are independent, so that they may be undone in
+/// any order among themselves.
+struct CollapsePass {
+  std::size_t begin;
+  std::size_t end;
+};
+
 struct DomainReport {
   std::uint32_t target_base_vertices = 0;
   std::uint32_t base_vertices = 0;
@@ -72,6 +80,8 @@ struct Domain {
   std::vector<VertexKind> kinds;
   TriangleTopology topology;
   std::vector<CollapseRecord> collapses;
+  /// Runs of independent collapses, ascending.
+  std::vector<CollapsePass> passes;
   /// The faces that are left, ascending: indices into `topology.faces`.
   std::vector<std::uint32_t> base_faces;
   DomainReport report;
@@ -88,6 +98,11 @@ Domain build_domain(const TriangleMesh& mesh, const DomainOptions& options,
 /// other `options`. The distance to the mesh is then measured from where it begins again.
 void rebuild_base(Domain& domain, const DomainOptions& options, std::size_t keep,
                   const Progress& progress);
+
+/// The faces that an undo of `collapse` would take from `kept`, counter-clockwise around it, into
+/// `fan`. Looks at no face but those at `kept` and the two of the collapse.
+void find_collapsed_fan(const TriangleTopology& topology, const CollapseRecord& collapse,
+                        std::vector<std::uint32_t>& fan);
 
 /// Takes back one collapse, the last one that is not yet taken back: connectivity only. The faces
 /// that change from `kept` to `removed` are written to `fan`, counter-clockwise around both.

@@ -1,5 +1,7 @@
 #include "domain/feature_edges.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -53,6 +55,9 @@ constexpr double kClearArc = 0.1;  // relative to the diagonal
 // Of a turn of 50 degrees.
 constexpr double kSharpTurnCosine = 0.6428;
 
+// Of the faces, searched for candidates in parallel.
+constexpr std::size_t kParts = 16;
+
 struct CandidateEdge {
   std::uint32_t face;
   int edge;
@@ -77,12 +82,13 @@ class ChainSets {
 };
 
 std::vector<Eigen::Vector3d> face_normals(const TriangleMesh& mesh) {
-  std::vector<Eigen::Vector3d> normals;
-  normals.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles)
-    normals.push_back((mesh.positions[t[1]] - mesh.positions[t[0]])
-                          .cross(mesh.positions[t[2]] - mesh.positions[t[0]])
-                          .stableNormalized());
+  std::vector<Eigen::Vector3d> normals(mesh.triangles.size());
+  tbb::parallel_for(std::size_t{0}, normals.size(), [&](std::size_t f) {
+    const auto& [a, b, c] = mesh.triangles[f];
+    normals[f] = (mesh.positions[b] - mesh.positions[a])
+                     .cross(mesh.positions[c] - mesh.positions[a])
+                     .stableNormalized();
+  });
   return normals;
 }
 
@@ -111,11 +117,13 @@ SideTurns turns_beside(const TriangleTopology& topology,
   return turns;
 }
 
-std::vector<CandidateEdge> find_candidates(const TriangleMesh& mesh, const CreaseRule& rule,
-                                           const TriangleTopology& topology) {
-  const std::vector<Eigen::Vector3d> normals = face_normals(mesh);
+// The candidates of the faces from `begin` to before `end`.
+std::vector<CandidateEdge> find_candidates(const std::vector<Eigen::Vector3d>& normals,
+                                           const CreaseRule& rule,
+                                           const TriangleTopology& topology, std::uint32_t begin,
+                                           std::uint32_t end) {
   std::vector<CandidateEdge> candidates;
-  for (std::uint32_t f = 0; f < topology.faces.size(); ++f)
+  for (std::uint32_t f = begin; f < end; ++f)
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t g = topology.adjacent[f][k];
       if (g == kNone || g < f || normals[f].isZero() || normals[g].isZero()) continue;
@@ -128,6 +136,22 @@ std::vector<CandidateEdge> find_candidates(const TriangleMesh& mesh, const Creas
       candidates.push_back({f, k, cosine <= rule.upper_cosine,
                             std::min(beside.most[0], beside.most[1]) < kFlatTurn});
     }
+  return candidates;
+}
+
+std::vector<CandidateEdge> find_candidates(const TriangleMesh& mesh, const CreaseRule& rule,
+                                           const TriangleTopology& topology) {
+  const std::vector<Eigen::Vector3d> normals = face_normals(mesh);
+  std::array<std::vector<CandidateEdge>, kParts> parts;
+  const auto begin = [&](std::size_t part) {
+    return static_cast<std::uint32_t>(part * normals.size() / kParts);
+  };
+  tbb::parallel_for(std::size_t{0}, kParts, [&](std::size_t part) {
+    parts[part] = find_candidates(normals, rule, topology, begin(part), begin(part + 1));
+  });
+  std::vector<CandidateEdge> candidates;
+  for (const std::vector<CandidateEdge>& part : parts)
+    candidates.insert(candidates.end(), part.begin(), part.end());
   return candidates;
 }
 

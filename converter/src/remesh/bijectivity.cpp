@@ -1,10 +1,17 @@
 #include "remesh/bijectivity.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace zerotree::remesh {
 namespace {
+
+// Of the faces, added up each for itself: the sum is then the same for any number of threads.
+constexpr std::size_t kParts = 16;
 
 using Polygon = std::vector<LatticePoint>;
 
@@ -93,18 +100,27 @@ class Coverage {
 }  // namespace
 
 BijectivityReport check_bijectivity(const ConeCharts& charts, const BaseDomain& base) {
+  const std::size_t faces = charts.topology.faces.size();
+  std::vector<Coverage> parts(kParts, Coverage(base));
+  std::array<std::uint32_t, kParts> flipped{};
+  tbb::parallel_for(std::size_t{0}, kParts, [&](std::size_t part) {
+    for (std::size_t i = part * faces / kParts; i < (part + 1) * faces / kParts; ++i) {
+      const auto f = static_cast<std::uint32_t>(i);
+      const std::array<LatticePoint, 3> face{charts.corner_point(f, 0), charts.corner_point(f, 1),
+                                             charts.corner_point(f, 2)};
+      if (lattice_area(face[0], face[1], face[2]) > 0)
+        parts[part].add(anchor_of(charts, base, f), face);
+      else
+        ++flipped[part];
+    }
+  });
   BijectivityReport report;
-  Coverage coverage(base);
-  for (std::uint32_t f = 0; f < charts.topology.faces.size(); ++f) {
-    const std::array<LatticePoint, 3> face{charts.corner_point(f, 0), charts.corner_point(f, 1),
-                                           charts.corner_point(f, 2)};
-    if (lattice_area(face[0], face[1], face[2]) > 0)
-      coverage.add(anchor_of(charts, base, f), face);
-    else
-      ++report.flipped_faces;
-  }
-  for (double covered : coverage.covered)
+  report.flipped_faces = std::accumulate(flipped.begin(), flipped.end(), 0u);
+  for (std::size_t t = 0; t < base.topology.triangles.size(); ++t) {
+    double covered = 0;
+    for (const Coverage& part : parts) covered += part.covered[t];
     report.worst_coverage = std::max(report.worst_coverage, std::abs(covered - 1));
+  }
   return report;
 }
 

@@ -73,13 +73,15 @@ SpreadReport measure_spread(const domain::Domain& domain, const Parameterisation
   return report;
 }
 
-std::vector<std::uint32_t> pin_limbs(domain::Domain& domain, const Progress& progress) {
+std::vector<std::uint32_t> pin_limbs(domain::Domain& domain, std::size_t most_base_faces,
+                                     const Progress& progress) {
   const std::size_t most = std::max<std::size_t>(1, domain.report.base_vertices / kBasePerPin);
   domain::DomainOptions options;
   std::vector<std::uint32_t> best;
   double least = std::numeric_limits<double>::infinity();
   int without_gain = 0;
-  for (int round = 0; round < kMostRounds; ++round) {
+  // Pinned vertices may keep others, until the base is too large.
+  for (int round = 0; round < kMostRounds && domain.base_faces.size() <= most_base_faces; ++round) {
     const Parameterisation laid_out = parameterise(domain, progress);
     if (laid_out.stuck > 0) {
       options.pinned_vertices.push_back(domain.collapses[laid_out.stuck - 1].removed);

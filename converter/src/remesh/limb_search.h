@@ -22,9 +22,10 @@ SpreadReport measure_spread(const domain::Domain& domain, const Parameterisation
                             std::size_t most);
 
 /// Lays out `domain`, which should be a coarse version of the mesh, keeps the vertices of squeezed
-/// limbs in the base, and tries again while that helps. Returns the vertices to pin, ascending;
-/// `domain` then has the base with them. Cost: about 15 microseconds a vertex and round, of which
-/// there are up to 20.
-std::vector<std::uint32_t> pin_limbs(domain::Domain& domain, const Progress& progress);
+/// limbs in the base, and tries again while that helps and the base has no more than
+/// `most_base_faces`. Returns the vertices to pin, ascending; `domain` then has the base with them.
+/// Cost: about 15 microseconds a vertex and round, of which there are up to 20.
+std::vector<std::uint32_t> pin_limbs(domain::Domain& domain, std::size_t most_base_faces,
+                                     const Progress& progress);
 
 }  // namespace zerotree::remesh

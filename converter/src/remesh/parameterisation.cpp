@@ -3,58 +3,52 @@
 #include <algorithm>
 #include <span>
 
+#include "remesh/collapse_undoing.h"
 #include "remesh/relaxation_sweeps.h"
-#include "remesh/vertex_insertion.h"
 
 namespace zerotree::remesh {
 namespace {
 
 // Sweeps of relaxation each time that the number of vertices has doubled.
 constexpr int kSweeps = 2;
-// ... and when all vertices are there: on meshes of few vertices, CAD-like ones, this makes the
-// tangential details a fifth smaller; more of them shift stretch to where the surface bends.
-constexpr int kFinalSweeps = 4;
-// Newton steps for the neighbours of a vertex that has little room.
-constexpr int kStepsOfSqueezed = 3;
+// ... and more when all vertices of a mesh of few are there, as CAD-like ones have: this makes the
+// tangential details a fifth smaller; still more shift stretch to where the surface bends.
+constexpr int kFinalSweepsOfFew = 4;
+constexpr std::size_t kFewVertices = 20'000;
 
-// Gives the vertices around a squeezed one more room.
-void relax_ring(ConeCharts& charts, const domain::Star& star, VertexRelaxation& relaxation) {
-  for (const auto& [face, corner] : star.corners)
-    relaxation.relax(charts, charts.topology.faces[face][kNext[corner]], kStepsOfSqueezed);
-  const auto& [face, corner] = star.corners.front();
-  relaxation.relax(charts, charts.topology.faces[face][corner], kStepsOfSqueezed);
-}
-
-// Undoes `collapses` from the last to the first on the charts of `laid_out`, which has `present`
-// vertices already.
-void undo_collapses(const domain::Domain& domain,
-                    std::span<const domain::CollapseRecord> collapses, std::size_t present,
+// Undoes the first `collapses` collapses of `domain`, from the last to the first, on the charts of
+// `laid_out`, which has all the other vertices already.
+void undo_collapses(const domain::Domain& domain, std::size_t collapses,
                     Parameterisation& laid_out, const Progress& progress) {
-  const std::vector<Eigen::Vector3d>& positions = domain.mesh.positions;
-  VertexInsertion insertion(laid_out.base, positions, domain.kinds);
-  RelaxationSweeps sweeps(laid_out.base, positions, domain.kinds);
-  VertexRelaxation single_relaxation(laid_out.base, positions, domain.kinds);
-  domain::Star neighbours;
+  CollapseUndoing undoing(laid_out.base, domain.mesh.positions, domain.kinds);
+  RelaxationSweeps sweeps(laid_out.base, domain.mesh.positions, domain.kinds);
+  const std::span<const domain::CollapseRecord> records(domain.collapses);
+  auto pass = domain.passes.rbegin();
   // Sweeps come when half of the vertices are there, a quarter, and so on.
-  const std::size_t all = present + collapses.size();
+  const std::size_t all = domain.kinds.size();
   std::size_t due = all;
-  while (due / 2 > present) due /= 2;
-  for (std::size_t i = collapses.size(); i-- > 0;) {
-    if (!insertion.insert(laid_out.charts, collapses[i])) {
-      laid_out.stuck = i + 1;
+  while (due / 2 > all - collapses) due /= 2;
+  for (std::size_t left = collapses; left > 0;) {
+    while (pass != domain.passes.rend() && pass->begin >= left) ++pass;
+    const bool is_in_pass = pass != domain.passes.rend() && pass->end >= left;
+    const std::size_t pass_border = is_in_pass                      ? pass->begin
+                                    : pass != domain.passes.rend() ? pass->end
+                                                                    : 0;
+    const std::size_t first = std::max(pass_border, all - due);
+    const auto next = records.subspan(first, left - first);
+    if (!(is_in_pass ? undoing.undo_independent(laid_out.charts, next)
+                     : undoing.undo(laid_out.charts, next))) {
+      laid_out.stuck = first + undoing.stuck() + 1;
       break;
     }
-    if (insertion.is_squeezed()) {
-      neighbours = insertion.star();
-      relax_ring(laid_out.charts, neighbours, single_relaxation);
-    }
-    if (++present < due) continue;
+    left = first;
+    if (all - left < due) continue;
     report_progress(progress, "parameterising",
-                    static_cast<double>(present) / static_cast<double>(all));
-    sweeps.run(laid_out.charts, i == 0 ? kFinalSweeps : kSweeps);
-    due = present == all ? all : std::min(2 * due + 1, all);
+                    static_cast<double>(due) / static_cast<double>(all));
+    sweeps.run(laid_out.charts, left == 0 && all < kFewVertices ? kFinalSweepsOfFew : kSweeps);
+    due = std::min(2 * due + 1, all);
   }
-  laid_out.cone_swaps += insertion.cone_swaps();
+  laid_out.cone_swaps += undoing.cone_swaps();
 }
 
 // Collapses of `fine` that were done when `coarse` began.
@@ -84,7 +78,7 @@ ConeCharts embed_charts(const ConeCharts& charts, const domain::CoarseDomain& co
 Parameterisation parameterise(const domain::Domain& domain, const Progress& progress) {
   Parameterisation result{build_base_domain(domain), {}, 0, 0};
   result.charts = build_base_charts(domain, result.base);
-  undo_collapses(domain, domain.collapses, result.base.mesh_vertex.size(), result, progress);
+  undo_collapses(domain, domain.collapses.size(), result, progress);
   return result;
 }
 
@@ -94,8 +88,7 @@ Parameterisation refine(const domain::Domain& fine, const domain::CoarseDomain& 
                           laid_out.cone_swaps, 0};
   for (std::uint32_t& v : result.base.mesh_vertex) v = coarse.vertices[v];
   for (std::uint32_t& f : result.base.mesh_face) f = coarse.faces[f];
-  const auto missing = std::span(fine.collapses).first(done_before(coarse, fine));
-  undo_collapses(fine, missing, coarse.vertices.size(), result, progress);
+  undo_collapses(fine, done_before(coarse, fine), result, progress);
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include "remesh/relaxation_sweeps.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -53,16 +54,24 @@ void RelaxationSweeps::find_inner_vertices(const ConeCharts& charts) {
   inner_.clear();
   border_.clear();
   first_inner_.assign(parts + 1, 0);
-  domain::Star star;
-  for (std::uint32_t v : order_) {
-    domain::gather_star(charts.topology, v, star);
-    const bool is_inner = std::ranges::all_of(star.corners, [&](const domain::Corner& at) {
-      return std::ranges::all_of(charts.topology.faces[at.face], [&](std::uint32_t w) {
-        return part_[w] == part_[v] || part_[w] == kNoPart;
+  is_inner_.resize(order_.size());
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, order_.size(), kLeastVerticesPerPart),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        domain::Star star;
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          const std::uint8_t part = part_[order_[i]];
+          domain::gather_star(charts.topology, order_[i], star);
+          is_inner_[i] = std::ranges::all_of(star.corners, [&](const domain::Corner& at) {
+            return std::ranges::all_of(charts.topology.faces[at.face], [&](std::uint32_t w) {
+              return part_[w] == part || part_[w] == kNoPart;
+            });
+          });
+        }
       });
-    });
-    (is_inner ? inner_ : border_).push_back(v);
-    if (is_inner) ++first_inner_[part_[v] + 1];
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    (is_inner_[i] != 0 ? inner_ : border_).push_back(order_[i]);
+    if (is_inner_[i] != 0) ++first_inner_[part_[order_[i]] + 1];
   }
   std::partial_sum(first_inner_.begin(), first_inner_.end(), first_inner_.begin());
 }

@@ -47,7 +47,11 @@ class BaseSearch {
     std::size_t keep =
         collapses - std::min(collapses, kCoarsePerBaseVertex * domain_.report.base_vertices);
     coarse_ = domain::extract_coarse(domain_, keep);
-    for (std::uint32_t v : pin_limbs(coarse_.domain, progress_)) pin(coarse_.vertices[v]);
+    // Limbs are not worth a level.
+    const std::size_t most_base_faces = domain::largest_base_of_same_depth(
+        domain_.base_faces.size(), domain_.mesh.triangles.size());
+    for (std::uint32_t v : pin_limbs(coarse_.domain, most_base_faces, progress_))
+      pin(coarse_.vertices[v]);
     report_.pinned_limbs = static_cast<std::uint32_t>(pinned_.size());
     while (true) {
       const Parameterisation coarse = lay_out_coarse();

@@ -37,7 +37,11 @@ bool VertexInsertion::insert(ConeCharts& charts, const domain::CollapseRecord& c
   for (std::uint32_t face : fan_)
     sector_.faces.push_back({face, domain::corner_of(charts.topology.faces[face], removed)});
   unfold(charts);
-  if (place(charts)) return true;
+  return place(charts);
+}
+
+bool VertexInsertion::swap_in(ConeCharts& charts, const domain::CollapseRecord& collapse) {
+  const std::uint32_t removed = collapse.removed;
   if (!may_swap(charts, collapse)) return false;
   gather_complement(charts, collapse);
   if (sector_.faces.empty()) return false;

@@ -15,10 +15,15 @@ class VertexInsertion {
                   const std::vector<domain::VertexKind>& kinds)
       : base_(base), positions_(positions), kinds_(kinds) {}
 
-  /// Undoes `collapse` and places its vertex. Where the fan at a cone leaves it no room, the vertex
-  /// takes the cone's place and the other one moves into the rest of the cone's fan. Returns
-  /// whether there was room either way; if not, `charts` is no longer usable.
+  /// Undoes `collapse` and places its vertex. Returns whether there was room; if not, the place is
+  /// to be found by `swap_in` before anything around is touched. Touches no face but those at
+  /// `kept` and changes nothing of the base.
   bool insert(ConeCharts& charts, const domain::CollapseRecord& collapse);
+
+  /// Where the fan at a cone leaves the vertex no room: it takes the cone's place, and the other one
+  /// moves into the rest of the cone's fan. Returns whether there was room; if not, `charts` is no
+  /// longer usable.
+  bool swap_in(ConeCharts& charts, const domain::CollapseRecord& collapse);
 
   /// After an insertion: the faces around the vertex are so small that those that come yet may find
   /// no room among them.
