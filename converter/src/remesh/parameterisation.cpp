@@ -18,8 +18,8 @@ constexpr std::size_t kFewVertices = 20'000;
 
 // Undoes the first `collapses` collapses of `domain`, from the last to the first, on the charts of
 // `laid_out`, which has all the other vertices already.
-void undo_collapses(const domain::Domain& domain, std::size_t collapses,
-                    Parameterisation& laid_out, const Progress& progress) {
+void undo_collapses(const domain::Domain& domain, std::size_t collapses, Parameterisation& laid_out,
+                    const Progress& progress) {
   CollapseUndoing undoing(laid_out.base, domain.mesh.positions, domain.kinds);
   RelaxationSweeps sweeps(laid_out.base, domain.mesh.positions, domain.kinds);
   const std::span<const domain::CollapseRecord> records(domain.collapses);
@@ -31,9 +31,9 @@ void undo_collapses(const domain::Domain& domain, std::size_t collapses,
   for (std::size_t left = collapses; left > 0;) {
     while (pass != domain.passes.rend() && pass->begin >= left) ++pass;
     const bool is_in_pass = pass != domain.passes.rend() && pass->end >= left;
-    const std::size_t pass_border = is_in_pass                      ? pass->begin
+    const std::size_t pass_border = is_in_pass                     ? pass->begin
                                     : pass != domain.passes.rend() ? pass->end
-                                                                    : 0;
+                                                                   : 0;
     const std::size_t first = std::max(pass_border, all - due);
     const auto next = records.subspan(first, left - first);
     if (!(is_in_pass ? undoing.undo_independent(laid_out.charts, next)
