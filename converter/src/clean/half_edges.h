@@ -36,7 +36,8 @@ struct EdgeTable {
 };
 
 /// Groups by counting sort over the lower vertex: O(F + V), but for edges of one vertex, which are
-/// sorted, on all threads of oneTBB. 24 bytes a face in passing. No face may have a repeated vertex.
+/// sorted, on all threads of oneTBB. 24 bytes a face in passing. No face may have a repeated
+/// vertex.
 EdgeTable make_edge_table(const std::vector<Triangle>& triangles, std::size_t vertex_count);
 
 /// Mates of the half-edges of a mesh whose edges have at most two faces: no_half_edge at boundaries

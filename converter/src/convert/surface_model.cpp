@@ -70,7 +70,7 @@ RemeshedSurface remesh_surface(const TriangleMesh& mesh, const ConvertOptions& o
   domain::DomainOptions domain_options;
   domain_options.base_vertices = static_cast<std::uint32_t>(options.base_vertices);
   domain_options.crease_angle_degrees = options.crease_angle_degrees;
-  const domain::Domain domain =
+  domain::Domain domain =
       clock.run("domain", [&] { return domain::build_domain(mesh, domain_options, progress); });
 
   remesh::RemeshOptions remesh_options;
@@ -79,6 +79,9 @@ RemeshedSurface remesh_surface(const TriangleMesh& mesh, const ConvertOptions& o
   const remesh::RemeshResult remeshed =
       clock.run("remesh", [&] { return remesh::remesh(domain, remesh_options, progress); });
   note_remesh(remeshed, report);
+  // The way from the mesh to its base has been gone.
+  domain.topology = domain::TriangleTopology();
+  std::vector<domain::CollapseRecord>().swap(domain.collapses);
 
   relax::RelaxedMesh relaxed = clock.run("relax", [&] {
     return relax::relax(domain, remeshed.laid_out, remeshed.report.levels, {}, progress);

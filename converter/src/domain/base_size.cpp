@@ -206,8 +206,7 @@ int automatic_levels(std::size_t base_faces, std::size_t input_faces, const Accu
 
 std::size_t largest_base_of_same_depth(std::size_t base_faces, std::size_t input_faces) {
   const int levels = automatic_levels(base_faces, input_faces, {});
-  const double faces =
-      kBaseTolerance * finest_face_limit(input_faces) / std::pow(4.0, levels);
+  const double faces = kBaseTolerance * finest_face_limit(input_faces) / std::pow(4.0, levels);
   return std::max(base_faces, static_cast<std::size_t>(faces));
 }
 

@@ -116,7 +116,8 @@ class BulkDecimation {
   void choose_in_order(std::size_t most) {
     std::ranges::sort(order_);
     for (std::size_t i = 0; i < order_.size() && chosen_.size() < most; ++i)
-      if (judge(vertex_of(order_[i]), [](std::uint32_t) { return true; }, searcher_) ==
+      if (judge(
+              vertex_of(order_[i]), [](std::uint32_t) { return true; }, searcher_) ==
           Verdict::chosen)
         chosen_.push_back(vertex_of(order_[i]));
   }

@@ -7,8 +7,8 @@ namespace zerotree::domain {
 
 /// Collapses about the cheapest vertices until `target` are left or few can be collapsed. Works in
 /// passes: in each, the costs are brought up to date in parallel, and of the cheaper half those
-/// collapses are done that don't touch each other. The result is the same for any number of
-/// threads.
+/// collapses are done that don't touch each other, the cheapest first. They are chosen in parallel
+/// in parts of the mesh that don't depend on the number of threads, so neither does the result.
 void decimate_in_bulk(DecimationState& state, std::size_t target, const Progress& progress);
 
 }  // namespace zerotree::domain

@@ -60,8 +60,8 @@ class CollapseRules {
   const std::vector<std::uint32_t>& ring() const { return ring_; }
   /// Its edges: the i-th is the first edge of the star's i-th corner; one more in an open star.
   std::size_t edge_count() const { return star_.corners.size() + (star_.closed ? 0 : 1); }
-  /// Whether merging the vertex along its i-th edge surely gives a smooth vertex more faces than the
-  /// caps allow, as it mostly does: a look before `site_along`.
+  /// Whether merging the vertex along its i-th edge surely gives a smooth vertex more faces than
+  /// the caps allow, as it mostly does: a look before `site_along`.
   bool crowds(std::size_t edge, const CollapseCaps& caps) const;
   /// What merging the vertex along its i-th edge would do.
   CollapseSite site_along(std::size_t edge) const;

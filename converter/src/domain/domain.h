@@ -90,7 +90,8 @@ struct Domain {
 /// Finds the features of `mesh` (clean, oriented, manifold; any genus, boundaries, components)
 /// and decimates it to a base mesh: a simplicial complex without duplicate edges, of the same
 /// topology. Throws Error(refused_topology) if the mesh is no manifold.
-/// Cost: about 8 microseconds and 250 bytes per vertex; the most of it on all threads of oneTBB.
+/// Fast for meshes whose neighbours in space have neighbouring numbers (clean/spatial_order.h):
+/// about 6 microseconds and 220 bytes per vertex then; two thirds of it on all threads of oneTBB.
 Domain build_domain(const TriangleMesh& mesh, const DomainOptions& options,
                     const Progress& progress);
 

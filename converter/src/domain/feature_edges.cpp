@@ -119,9 +119,8 @@ SideTurns turns_beside(const TriangleTopology& topology,
 
 // The candidates of the faces from `begin` to before `end`.
 std::vector<CandidateEdge> find_candidates(const std::vector<Eigen::Vector3d>& normals,
-                                           const CreaseRule& rule,
-                                           const TriangleTopology& topology, std::uint32_t begin,
-                                           std::uint32_t end) {
+                                           const CreaseRule& rule, const TriangleTopology& topology,
+                                           std::uint32_t begin, std::uint32_t end) {
   std::vector<CandidateEdge> candidates;
   for (std::uint32_t f = begin; f < end; ++f)
     for (int k = 0; k < 3; ++k) {

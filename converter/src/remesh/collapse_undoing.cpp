@@ -50,16 +50,15 @@ bool CollapseUndoing::undo_independent(ConeCharts& charts,
                                        std::span<const domain::CollapseRecord> collapses) {
   if (collapses.size() < kLeastInParallel) return undo(charts, collapses);
   std::array<Rest, kParts> rests;
-  tbb::parallel_for(std::size_t{0}, kParts, [&](std::size_t part) {
-    undo_part(charts, collapses, part, rests[part]);
-  });
-  return std::ranges::all_of(
-      rests, [&](const Rest& rest) { return finish(charts, collapses, rest); });
+  tbb::parallel_for(std::size_t{0}, kParts,
+                    [&](std::size_t part) { undo_part(charts, collapses, part, rests[part]); });
+  return std::ranges::all_of(rests,
+                             [&](const Rest& rest) { return finish(charts, collapses, rest); });
 }
 
 void CollapseUndoing::undo_part(ConeCharts& charts,
-                                std::span<const domain::CollapseRecord> collapses,
-                                std::size_t part, Rest& rest) const {
+                                std::span<const domain::CollapseRecord> collapses, std::size_t part,
+                                Rest& rest) const {
   VertexInsertion insertion(base_, positions_, kinds_);
   std::vector<std::uint32_t> fan;
   const auto part_of_collapse = [&](const domain::CollapseRecord& collapse) {

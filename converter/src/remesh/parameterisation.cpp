@@ -16,28 +16,37 @@ constexpr int kSweeps = 2;
 constexpr int kFinalSweepsOfFew = 4;
 constexpr std::size_t kFewVertices = 20'000;
 
+// Collapses from `begin` on that can be undone in one go.
+struct Run {
+  std::size_t begin;
+  bool is_independent;
+};
+
+// Those before the collapse `left`: of the pass that it ends or is in, or down to the next pass.
+Run run_before(const std::vector<domain::CollapsePass>& passes, std::size_t left) {
+  const auto after = std::ranges::lower_bound(passes, left, {}, &domain::CollapsePass::begin);
+  if (after == passes.begin()) return {0, false};
+  const domain::CollapsePass& pass = *std::prev(after);
+  return pass.end >= left ? Run{pass.begin, true} : Run{pass.end, false};
+}
+
 // Undoes the first `collapses` collapses of `domain`, from the last to the first, on the charts of
 // `laid_out`, which has all the other vertices already.
-void undo_collapses(const domain::Domain& domain, std::size_t collapses,
-                    Parameterisation& laid_out, const Progress& progress) {
+void undo_collapses(const domain::Domain& domain, std::size_t collapses, Parameterisation& laid_out,
+                    const Progress& progress) {
   CollapseUndoing undoing(laid_out.base, domain.mesh.positions, domain.kinds);
   RelaxationSweeps sweeps(laid_out.base, domain.mesh.positions, domain.kinds);
   const std::span<const domain::CollapseRecord> records(domain.collapses);
-  auto pass = domain.passes.rbegin();
   // Sweeps come when half of the vertices are there, a quarter, and so on.
   const std::size_t all = domain.kinds.size();
   std::size_t due = all;
   while (due / 2 > all - collapses) due /= 2;
   for (std::size_t left = collapses; left > 0;) {
-    while (pass != domain.passes.rend() && pass->begin >= left) ++pass;
-    const bool is_in_pass = pass != domain.passes.rend() && pass->end >= left;
-    const std::size_t pass_border = is_in_pass                      ? pass->begin
-                                    : pass != domain.passes.rend() ? pass->end
-                                                                    : 0;
-    const std::size_t first = std::max(pass_border, all - due);
+    const Run run = run_before(domain.passes, left);
+    const std::size_t first = std::max(run.begin, all - due);
     const auto next = records.subspan(first, left - first);
-    if (!(is_in_pass ? undoing.undo_independent(laid_out.charts, next)
-                     : undoing.undo(laid_out.charts, next))) {
+    if (!(run.is_independent ? undoing.undo_independent(laid_out.charts, next)
+                             : undoing.undo(laid_out.charts, next))) {
       laid_out.stuck = first + undoing.stuck() + 1;
       break;
     }

@@ -28,7 +28,7 @@ class RelaxationSweeps {
   std::vector<std::uint32_t> order_;
   std::vector<std::uint8_t> part_;      // of each vertex
   std::vector<std::uint8_t> is_inner_;  // of each in order_
-  std::vector<std::uint32_t> inner_;  // by part
+  std::vector<std::uint32_t> inner_;    // by part
   std::vector<std::size_t> first_inner_;
   std::vector<std::uint32_t> border_;
 };

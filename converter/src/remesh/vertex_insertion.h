@@ -20,9 +20,9 @@ class VertexInsertion {
   /// `kept` and changes nothing of the base.
   bool insert(ConeCharts& charts, const domain::CollapseRecord& collapse);
 
-  /// Where the fan at a cone leaves the vertex no room: it takes the cone's place, and the other one
-  /// moves into the rest of the cone's fan. Returns whether there was room; if not, `charts` is no
-  /// longer usable.
+  /// Where the fan at a cone leaves the vertex no room: it takes the cone's place, and the other
+  /// one moves into the rest of the cone's fan. Returns whether there was room; if not, `charts` is
+  /// no longer usable.
   bool swap_in(ConeCharts& charts, const domain::CollapseRecord& collapse);
 
   /// After an insertion: the faces around the vertex are so small that those that come yet may find

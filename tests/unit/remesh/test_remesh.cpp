@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "clean/spatial_order.h"
 #include "mesh/error.h"
 #include "remesh/lattice_numbering.h"
 #include "scans.h"
@@ -95,6 +96,36 @@ TEST(Remesh, IsTheSameForAnyNumberOfThreads) {
     return remesh(domain, {}, {});
   };
   expect_same(with_threads(1), with_threads(2));
+}
+
+// Large and in such an order that collapses are undone part by part.
+TEST(Remesh, IsTheSameForAnyNumberOfThreadsOfALargeMesh) {
+  TriangleMesh mesh = test::add_noise(test::sphere(6), 0.1, 3);
+  clean::sort_spatially(mesh);
+  domain::DomainOptions options;
+  options.base_vertices = 40;
+  const domain::Domain domain = domain::build_domain(mesh, options, {});
+  const auto with_threads = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return remesh(domain, {}, {});
+  };
+  const RemeshResult one = with_threads(1);
+  expect_same(one, with_threads(3));
+  EXPECT_EQ(one.laid_out.charts.topology.faces, mesh.triangles);
+}
+
+TEST(Remesh, RefinesACoarseVersion) {
+  domain::DomainOptions options;
+  options.base_vertices = 20;
+  const domain::Domain fine =
+      domain::build_domain(test::add_noise(test::sphere(5), 0.1, 3), options, {});
+  const domain::CoarseDomain coarse = domain::extract_coarse(fine, fine.collapses.size() - 100);
+  const Parameterisation laid_out = refine(fine, coarse, parameterise(coarse.domain, {}), {});
+  ASSERT_EQ(laid_out.stuck, 0u);
+  EXPECT_EQ(laid_out.charts.topology.faces, fine.mesh.triangles);
+  const BijectivityReport report = check_bijectivity(laid_out.charts, laid_out.base);
+  EXPECT_EQ(report.flipped_faces, 0u);
+  EXPECT_LT(report.worst_coverage, 1e-9);
 }
 
 }  // namespace
