@@ -24,6 +24,13 @@ class LimitOperator {
   /// result = A^T values.
   void apply_transposed(const Points& values, Points& result) const;
 
+  /// The weight of a vertex's own control point in its limit position.
+  double own_weight(std::size_t v) const { return static_cast<double>(own_[v]); }
+  /// The weight of each neighbour's; of those along its feature if it is on one.
+  double neighbour_weight(std::size_t v) const {
+    return static_cast<double>(feature_neighbour_[v]);
+  }
+
  private:
   const relax::SubdividedLevel& level_;
   // Weight of the vertex itself, of each neighbour, and of each neighbour along a feature.
