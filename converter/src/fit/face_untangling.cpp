@@ -14,8 +14,6 @@ namespace {
 // between: few, because the layout shall change no more than it must.
 constexpr int kPatience = 20;
 constexpr int kIterations = 3;
-// The weight of the input's normals at a face's corners beside the one at its centre.
-constexpr double kCornerShare = 3;
 // The longest step, in units of the mean edge.
 constexpr double kLongestStep = 0.5;
 // How far areas are kept from zero: a share of the mean one and of the worst negative one.
@@ -110,7 +108,7 @@ void lead_feet(const InputOrientation& orientation, PatchState& state) {
 }
 
 void find_targets(const InputOrientation& orientation, const UntanglingPatch& patch,
-                  const PatchState& state, PatchTargets& targets) {
+                  double corner_share, const PatchState& state, PatchTargets& targets) {
   const Points& limit = state.limit;
   targets.feet.assign(limit.size(), Eigen::Vector3d::Zero());
   targets.foot_normals.assign(limit.size(), Eigen::Vector3d::Zero());
@@ -129,9 +127,8 @@ void find_targets(const InputOrientation& orientation, const UntanglingPatch& pa
     if (!orientation.find_point(state.feet, limit, patch.faces[f], point)) continue;
     targets.turned_faces += orientation.opposes(point, area);
     targets.face_normals[f] = orientation.smooth_normal(point);
-    // A face on a sharp bend looks both ways.
     for (std::uint32_t v : patch.faces[f])
-      targets.face_normals[f] += kCornerShare * targets.foot_normals[v];
+      targets.face_normals[f] += corner_share * targets.foot_normals[v];
     targets.face_normals[f].stableNormalize();
     least = std::min(least, targets.face_normals[f].dot(area));
   }
@@ -158,8 +155,8 @@ void lay_out(const UntanglingPatch& patch, const PatchTargets& targets, PatchSta
 }  // namespace
 
 std::uint32_t untangle(const InputOrientation& orientation, const UntanglingPatch& patch,
-                       double firmness, std::vector<relax::SurfacePoint>& feet, Points& limit,
-                       Points& points) {
+                       const UntanglingWeights& weights, std::vector<relax::SurfacePoint>& feet,
+                       Points& limit, Points& points) {
   PatchState state, best;
   for (std::uint32_t v : patch.vertices) {
     state.feet.push_back(feet[v]);
@@ -167,11 +164,11 @@ std::uint32_t untangle(const InputOrientation& orientation, const UntanglingPatc
   }
   state.moves.assign(patch.free_count, Eigen::Vector3d::Zero());
   PatchTargets targets;
-  targets.firmness = firmness;
+  targets.firmness = weights.firmness;
   std::uint32_t least = 0;
   int last_gain = 0;
   for (int round = 0; round - last_gain <= kPatience; ++round) {
-    find_targets(orientation, patch, state, targets);
+    find_targets(orientation, patch, weights.corner_share, state, targets);
     if (round == 0 || targets.turned_faces < least) {
       least = targets.turned_faces;
       best = state;

@@ -14,13 +14,15 @@
 namespace zerotree::fit {
 namespace {
 
-// How many rings around turned faces are laid out anew, and how firmly they are held to the input.
-// Where all that is near is folded, small firm patches and larger loose ones help each other on.
+// How many rings around turned faces are laid out anew, and how. Small patches that are held firmly
+// change the least; where all that is near is folded, larger and looser ones find a way out, and
+// sharp bends are seen first as round ones, then as they are.
 struct Attempt {
   int rings;
-  double firmness;
+  UntanglingWeights weights;
 };
-constexpr std::array<Attempt, 4> kAttempts{{{2, 100}, {3, 10}, {2, 100}, {3, 10}}};
+constexpr std::array<Attempt, 4> kAttempts{
+    {{2, {300, 3}}, {3, {30, 3}}, {2, {300, 0}}, {3, {30, 0}}}};
 
 // The turned ones among the faces that have a marked vertex.
 std::vector<std::uint32_t> find_turned(const InputOrientation& orientation,
@@ -50,12 +52,12 @@ std::uint32_t turn_faces_back(const relax::InputSurface& input,
   limit.apply(points, at);
   std::vector<std::uint8_t> marks(points.size(), 1);
   std::vector<std::uint32_t> turned = find_turned(orientation, finest, feet, at, marks);
-  for (const auto& [rings, firmness] : kAttempts) {
+  for (const auto& [rings, weights] : kAttempts) {
     if (turned.empty()) break;
     const std::vector<UntanglingPatch> patches =
         untangling_patches(finest, limit, held, turned, rings);
     tbb::parallel_for(std::size_t{0}, patches.size(), [&](std::size_t i) {
-      untangle(orientation, patches[i], firmness, feet, at, points);
+      untangle(orientation, patches[i], weights, feet, at, points);
     });
     // Only what has moved may have changed.
     std::ranges::fill(marks, std::uint8_t{0});
