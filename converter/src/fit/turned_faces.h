@@ -12,6 +12,8 @@ namespace zerotree::fit {
 /// Finds the finest triangles that are turned (InputOrientation) and lays out the surface around
 /// them anew, in ever larger patches, until none is left or nothing helps. Vertices with a mark in
 /// `held` stay. `feet` are those of the limit positions and are led on. Returns how many are left.
+/// The result does not depend on the number of threads. Cost: about a microsecond a face, and up to
+/// 0.5 milliseconds per vertex within three rings of turned faces.
 std::uint32_t turn_faces_back(const relax::InputSurface& input,
                               const relax::SubdividedLevel& finest, const LimitOperator& limit,
                               const std::vector<std::uint8_t>& held,
