@@ -1,5 +1,6 @@
 #include "fit/limited_memory_bfgs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <utility>
