@@ -28,6 +28,13 @@ class LimitOperator {
   template <class Vector>
   void apply_transposed(const std::vector<Vector>& values, std::vector<Vector>& result) const;
 
+  /// The weight of a vertex's own control point in its limit position.
+  double own_weight(std::size_t v) const { return static_cast<double>(own_[v]); }
+  /// The weight of each neighbour's; of those along its feature if it is on one.
+  double neighbour_weight(std::size_t v) const {
+    return static_cast<double>(feature_neighbour_[v]);
+  }
+
  private:
   const relax::SubdividedLevel& level_;
   // Weight of the vertex itself, of each neighbour, and of each neighbour along a feature.

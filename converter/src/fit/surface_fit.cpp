@@ -69,7 +69,7 @@ FittedSurface fit_control_points(const domain::Domain& domain,
     for (std::size_t v = 0; v < held.size(); ++v) held[v] = targets.feet[v].is_on_feature();
   }
   FittedSurface fitted;
-  fitted.turned_faces = turn_faces_back(input, finest, limit, foot_points, held, points);
+  fitted.turned_faces = turn_faces_back(input, finest, limit, held, foot_points, points);
   fitted.points = std::move(points);
   return fitted;
 }

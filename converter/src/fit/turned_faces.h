@@ -9,14 +9,14 @@
 
 namespace zerotree::fit {
 
-/// Finds the finest triangles whose normal opposes the input's at their point (the nearest one that
-/// short walks from their corners' feet lead to) and smooths their control points, a little and
-/// only there, until none is left or nothing helps. Vertices with a mark in `held` stay. Faces
-/// whose three corners lie on features are passed over: they have no side. Returns how many are
-/// left.
+/// Finds the finest triangles that are turned (InputOrientation) and lays out the surface around
+/// them anew, in ever larger patches, until none is left or nothing helps. Vertices with a mark in
+/// `held` stay. `feet` are those of the limit positions and are led on. Returns how many are left.
+/// The result does not depend on the number of threads. Cost: about a microsecond a face, and up to
+/// 0.5 milliseconds per vertex within three rings of turned faces.
 std::uint32_t turn_faces_back(const relax::InputSurface& input,
                               const relax::SubdividedLevel& finest, const LimitOperator& limit,
-                              const std::vector<relax::SurfacePoint>& foot_points,
-                              const std::vector<std::uint8_t>& held, Points& points);
+                              const std::vector<std::uint8_t>& held,
+                              std::vector<relax::SurfacePoint>& feet, Points& points);
 
 }  // namespace zerotree::fit
