@@ -5,6 +5,7 @@
 
 #include "fit/nearest_samples.h"
 #include "fit/normal_equations.h"
+#include "fit/stray_faces.h"
 #include "fit/turned_faces.h"
 
 namespace zerotree::fit {
@@ -69,7 +70,9 @@ FittedSurface fit_control_points(const domain::Domain& domain,
     for (std::size_t v = 0; v < held.size(); ++v) held[v] = targets.feet[v].is_on_feature();
   }
   FittedSurface fitted;
-  fitted.turned_faces = turn_faces_back(input, finest, limit, held, foot_points, points);
+  const InputOrientation orientation(input);
+  draw_in_stray_faces(orientation, finest, limit, held, foot_points, points);
+  fitted.turned_faces = turn_faces_back(orientation, finest, limit, held, foot_points, points);
   fitted.points = std::move(points);
   return fitted;
 }

@@ -24,6 +24,9 @@ struct Attempt {
 constexpr std::array<Attempt, 4> kAttempts{
     {{2, {300, 3}}, {3, {30, 3}}, {2, {300, 0}}, {3, {30, 0}}}};
 
+// A patch of more faces has been lost by the base mesh: laying it out takes long and finds nothing.
+constexpr std::size_t kMostFacesOfPatch = 1000;
+
 // The turned ones among the faces that have a marked vertex.
 std::vector<std::uint32_t> find_turned(const InputOrientation& orientation,
                                        const relax::SubdividedLevel& finest,
@@ -43,11 +46,10 @@ std::vector<std::uint32_t> find_turned(const InputOrientation& orientation,
 
 }  // namespace
 
-std::uint32_t turn_faces_back(const relax::InputSurface& input,
+std::uint32_t turn_faces_back(const InputOrientation& orientation,
                               const relax::SubdividedLevel& finest, const LimitOperator& limit,
                               const std::vector<std::uint8_t>& held,
                               std::vector<relax::SurfacePoint>& feet, Points& points) {
-  const InputOrientation orientation(input);
   Points at;
   limit.apply(points, at);
   std::vector<std::uint8_t> marks(points.size(), 1);
@@ -57,7 +59,8 @@ std::uint32_t turn_faces_back(const relax::InputSurface& input,
     const std::vector<UntanglingPatch> patches =
         untangling_patches(finest, limit, held, turned, rings);
     tbb::parallel_for(std::size_t{0}, patches.size(), [&](std::size_t i) {
-      untangle(orientation, patches[i], weights, feet, at, points);
+      if (patches[i].faces.size() <= kMostFacesOfPatch)
+        untangle(orientation, patches[i], weights, feet, at, points);
     });
     // Only what has moved may have changed.
     std::ranges::fill(marks, std::uint8_t{0});

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fit/input_orientation.h"
 #include "fit/limit_operator.h"
 #include "relax/surface_relaxation.h"
 
@@ -14,7 +15,7 @@ namespace zerotree::fit {
 /// `held` stay. `feet` are those of the limit positions and are led on. Returns how many are left.
 /// The result does not depend on the number of threads. Cost: about a microsecond a face, and up to
 /// 0.5 milliseconds per vertex within three rings of turned faces.
-std::uint32_t turn_faces_back(const relax::InputSurface& input,
+std::uint32_t turn_faces_back(const InputOrientation& orientation,
                               const relax::SubdividedLevel& finest, const LimitOperator& limit,
                               const std::vector<std::uint8_t>& held,
                               std::vector<relax::SurfacePoint>& feet, Points& points);

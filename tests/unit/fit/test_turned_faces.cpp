@@ -34,7 +34,7 @@ struct Fitted {
   std::uint32_t turn_back(Points& from) const {
     const relax::InputSurface surface = input();
     std::vector<relax::SurfacePoint> feet = relaxed.points;
-    return fit::turn_faces_back(surface, finest(), limit, held, feet, from);
+    return fit::turn_faces_back(fit::InputOrientation(surface), finest(), limit, held, feet, from);
   }
   /// How many faces of the limit surface are turned, by the normals at their corners' feet.
   int count_turned(const Points& from) const {
