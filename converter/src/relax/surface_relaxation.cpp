@@ -19,7 +19,8 @@ constexpr int kFirstDepth = 1;
 // Each cycle begins smoother than the one before and takes so many times fewer steps.
 constexpr int kFewerSteps = 3;
 // New vertices go to the place that Loop's rule predicts, and each cycle ends by going this share
-// of the way once more, which lowers tangential details by a third.
+// of the way once more, which lowers tangential details by a third. The finest level, which the fit
+// smooths, does without.
 constexpr double kLastPrediction = 0.7;
 // Rounds at most in which the vertices of turned triangles go on, while they get fewer.
 constexpr int kUntanglings = 12;
@@ -63,9 +64,10 @@ RelaxedMesh relax(const domain::Domain& domain, const remesh::Parameterisation& 
     // A V-cycle: what is rough must be smooth before it can move together.
     for (int l = vertices.level(); l > coarsest; --l) relax_level(l, count / 2);
     for (int l = coarsest; l <= vertices.level(); ++l) relax_level(l, count);
-    go_to_prediction(kLastPrediction);
+    const bool is_last = vertices.level() == levels;
+    if (!is_last || levels <= kCoarsestLevel + kFirstDepth) go_to_prediction(kLastPrediction);
     untangle(vertices, steps, guarded);
-    if (vertices.level() == levels) break;
+    if (is_last) break;
     vertices.refine();
     go_to_prediction(1.0);
     count = std::max(1, count / kFewerSteps);
