@@ -1,6 +1,7 @@
 #include "fit/surface_fit.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <utility>
 
 #include "fit/nearest_samples.h"
@@ -14,6 +15,9 @@ namespace {
 // Steps p <- p + (s - limit(p)) that bring the limit surface near the samples: smooth waves are
 // reproduced, the roughest noise is amplified by at most 4 (1 - (3/4)^4).
 constexpr int kInterpolationSteps = 3;
+
+// Details of coarser levels are shape: to pull at them would move the surface off the input.
+constexpr int kCoarsestSmoothLevel = 3;
 
 Points interpolate(const LimitOperator& limit, Points samples) {
   Points points = samples, at;
@@ -34,7 +38,8 @@ std::vector<SmoothnessPenalty> make_penalties(const relax::RelaxedMesh& relaxed,
   std::vector<SmoothnessPenalty> penalties;
   SmoothnessWeights weights = options.smoothness;
   const auto levels = static_cast<int>(relaxed.levels.size()) - 1;
-  for (int l = levels; l > 0 && l > levels - options.smooth_levels; --l) {
+  const int last = std::max(levels - options.smooth_levels + 1, kCoarsestSmoothLevel);
+  for (int l = levels; l > 0 && (l == levels || l >= last); --l) {
     penalties.emplace_back(relaxed.mesh.base, relaxed.levels[static_cast<std::size_t>(l - 1)],
                            normals, points, weights);
     weights.normal = 0;

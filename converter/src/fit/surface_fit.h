@@ -11,9 +11,9 @@ namespace zerotree::fit {
 struct FitOptions {
   /// Weights of the finest details against distances, all squared. The larger the normal one, the
   /// smoother and the cheaper to code, the smaller, the closer: 0.01 .. 1 are useful.
-  SmoothnessWeights smoothness{0.02, 0.2};
-  /// The details of so many levels are pulled off the surface: those below the finest one by their
-  /// tangential weight only.
+  SmoothnessWeights smoothness{0.02, 0.3};
+  /// The details of so many levels, but none of level 2 or 1 below a finer one, are pulled off the
+  /// surface: those below the finest one by their tangential weight only, times their area.
   int smooth_levels = 3;
   /// What a tangential distance counts as a share of a normal one.
   double tangential_share = 0.05;
