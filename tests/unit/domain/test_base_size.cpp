@@ -132,6 +132,12 @@ TEST(BaseSize, LevelsFollowTheErrorAskedFor) {
   EXPECT_EQ(automatic_levels(360, 100'000, {1e-1, 6e-5}), 2);
 }
 
+// ... whose base is held up by limbs or features.
+TEST(BaseSize, LevelsOfADenseScanMayMakeThreeTimesItsFaces) {
+  EXPECT_EQ(automatic_levels(2600, 900'000, {}), 5);
+  EXPECT_EQ(automatic_levels(2700, 900'000, {}), 4);
+}
+
 TEST(BaseSize, LevelsOfTinyMeshesReachTwoThousandFaces) {
   EXPECT_EQ(automatic_levels(4, 4, {}), 5);
   EXPECT_EQ(automatic_levels(20, 20, {}), 4);
