@@ -24,6 +24,14 @@ void GuardedMove::move(SurfaceVertices& vertices, const Steps& steps) {
   retry(vertices, steps);
 }
 
+void GuardedMove::move_alone(SurfaceVertices& vertices, const Steps& steps,
+                             const std::vector<std::uint32_t>& some) {
+  is_back_.assign(vertices.size(), 0);
+  for (std::uint32_t v : some) is_back_[v] = 1;
+  back_ = some;
+  retry(vertices, steps);
+}
+
 bool GuardedMove::was_positive(const SurfaceVertices& vertices, const Triangle& t) const {
   return vertices.is_positive(before_[t[0]], before_[t[1]], before_[t[2]]);
 }

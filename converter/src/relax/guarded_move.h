@@ -17,6 +17,10 @@ namespace zerotree::relax {
 class GuardedMove {
  public:
   void move(SurfaceVertices& vertices, const Steps& steps);
+  /// Lets some vertices, ascending, try parts of their steps one after the other. No more triangles
+  /// are negative afterwards.
+  void move_alone(SurfaceVertices& vertices, const Steps& steps,
+                  const std::vector<std::uint32_t>& some);
   /// How many moves were taken back so far.
   std::uint64_t rejected() const { return rejected_; }
 

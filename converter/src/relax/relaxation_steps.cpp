@@ -40,7 +40,7 @@ void RelaxationSteps::weigh_faces(const SurfaceVertices& vertices) {
     sum += face_weights_[f];
     for (std::uint32_t v : t) steps_.normals[v] += normal;
   }
-  for (Eigen::Vector3d& normal : steps_.normals) normal.stableNormalize();
+  for (Eigen::Vector3d& normal : steps_.normals) normal = unit(normal);
   const double mean = sum > 0 ? sum / static_cast<double>(triangles.size()) : 1;
   for (std::size_t f = 0; f < triangles.size(); ++f) {
     const auto [a, b, c] = triangles[f];

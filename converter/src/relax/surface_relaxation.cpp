@@ -19,25 +19,16 @@ constexpr int kFirstDepth = 1;
 // Each cycle begins smoother than the one before and takes so many times fewer steps.
 constexpr int kFewerSteps = 3;
 // New vertices go to the place that Loop's rule predicts, and each cycle ends by going this share
-// of the way once more, which lowers tangential details by a third. The finest level, which the fit
-// smooths, does without.
+// of the way once more, which lowers tangential details by a third. The finest level does without,
+// and without steps of its own, where it comes in a cycle after the first: it begins smooth, and
+// the fit goes on from there.
 constexpr double kLastPrediction = 0.7;
-// Rounds at most in which the vertices of turned triangles go on, while they get fewer.
-constexpr int kUntanglings = 12;
 
 // Where sampling or refining has left turned triangles, mostly at squeezed base vertices.
 void untangle(SurfaceVertices& vertices, RelaxationSteps& relaxation, GuardedMove& guarded) {
-  auto least = std::numeric_limits<std::ptrdiff_t>::max();
-  for (int round = 0; round < kUntanglings; ++round) {
-    const std::vector<std::uint8_t> tangled = vertices.mark_negative();
-    const std::ptrdiff_t count = std::ranges::count(tangled, 1);
-    if (count == 0 || count >= least) return;
-    least = count;
-    Steps steps = relaxation.towards_means(vertices, vertices.level());
-    for (std::size_t v = 0; v < tangled.size(); ++v)
-      if (!tangled[v]) steps.steps[v].setZero();
-    guarded.move(vertices, steps);
-  }
+  const std::vector<std::uint32_t> tangled = vertices.find_negative();
+  if (!tangled.empty())
+    guarded.move_alone(vertices, relaxation.towards_means(vertices, vertices.level()), tangled);
 }
 
 }  // namespace
@@ -63,9 +54,11 @@ RelaxedMesh relax(const domain::Domain& domain, const remesh::Parameterisation& 
     report_progress(progress, "relaxing", static_cast<double>(vertices.level()) / (levels + 1));
     // A V-cycle: what is rough must be smooth before it can move together.
     for (int l = vertices.level(); l > coarsest; --l) relax_level(l, count / 2);
-    for (int l = coarsest; l <= vertices.level(); ++l) relax_level(l, count);
     const bool is_last = vertices.level() == levels;
-    if (!is_last || levels <= kCoarsestLevel + kFirstDepth) go_to_prediction(kLastPrediction);
+    const bool is_left_to_fit = is_last && levels > kCoarsestLevel + kFirstDepth;
+    const int finest = is_left_to_fit ? levels - 1 : vertices.level();
+    for (int l = coarsest; l <= finest; ++l) relax_level(l, count);
+    if (!is_left_to_fit) go_to_prediction(kLastPrediction);
     untangle(vertices, steps, guarded);
     if (is_last) break;
     vertices.refine();

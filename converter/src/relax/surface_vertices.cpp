@@ -142,11 +142,13 @@ void SurfaceVertices::walk(std::size_t v, const Eigen::Vector3d& step,
   bind(v);
 }
 
-std::vector<std::uint8_t> SurfaceVertices::mark_negative() const {
-  std::vector<std::uint8_t> marks(size(), 0);
+std::vector<std::uint32_t> SurfaceVertices::find_negative() const {
+  std::vector<std::uint32_t> corners;
   for (const Triangle& t : connectivity().triangles)
-    if (!is_positive(t)) marks[t[0]] = marks[t[1]] = marks[t[2]] = 1;
-  return marks;
+    if (!is_positive(t)) corners.insert(corners.end(), t.begin(), t.end());
+  std::ranges::sort(corners);
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
 }
 
 std::uint32_t SurfaceVertices::count_negative() const {

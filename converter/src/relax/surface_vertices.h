@@ -51,8 +51,8 @@ class SurfaceVertices {
     return chart_.is_positive(chart_.place_of(a), chart_.place_of(b), chart_.place_of(c));
   }
   std::uint32_t count_negative() const;
-  /// 1 for the vertices of triangles that are not positive.
-  std::vector<std::uint8_t> mark_negative() const;
+  /// The vertices of triangles that are not positive, ascending.
+  std::vector<std::uint32_t> find_negative() const;
 
  private:
   void classify(std::size_t first);

@@ -34,7 +34,7 @@ TEST(StrayFaces, AreDrawnIn) {
   Points points = sphere.points;
   points[kThrown] += kThrow;
   EXPECT_GT(draw_in(sphere, sphere.held, points), 0u);
-  EXPECT_LT((points[kThrown] - sphere.points[kThrown]).norm(), 0.15 * kThrow.norm());
+  EXPECT_LT((points[kThrown] - sphere.points[kThrown]).norm(), 0.25 * kThrow.norm());
   // What lies elsewhere stays.
   std::size_t moved = 0;
   for (std::size_t v = 0; v < points.size(); ++v) moved += points[v] != sphere.points[v];
