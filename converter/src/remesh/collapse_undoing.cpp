@@ -52,8 +52,7 @@ bool CollapseUndoing::undo_independent(ConeCharts& charts,
   std::array<Rest, kParts> rests;
   tbb::parallel_for(std::size_t{0}, kParts,
                     [&](std::size_t part) { undo_part(charts, collapses, part, rests[part]); });
-  return std::ranges::all_of(rests,
-                             [&](const Rest& rest) { return finish(charts, collapses, rest); });
+  return finish(charts, collapses, rests);
 }
 
 void CollapseUndoing::undo_part(ConeCharts& charts,
@@ -78,21 +77,25 @@ void CollapseUndoing::undo_part(ConeCharts& charts,
   }
 }
 
-// The homeless first, as nothing around them may change before.
+// All the homeless first: the faces of their gaps have no charts yet, so nothing around may move.
 bool CollapseUndoing::finish(ConeCharts& charts, std::span<const domain::CollapseRecord> collapses,
-                             const Rest& rest) {
-  for (std::size_t i : rest.homeless) {
-    stuck_ = i;
-    if (!insertion_.swap_in(charts, collapses[i])) return false;
-  }
-  for (std::size_t i : rest.squeezed) {
-    domain::gather_star(charts.topology, collapses[i].removed, star_);
-    relax_ring(charts, star_);
-  }
-  for (std::size_t i : rest.at_border) {
-    stuck_ = i;
-    if (!undo_one(charts, collapses[i])) return false;
-  }
+                             std::span<Rest> rests) {
+  for (Rest& rest : rests)
+    for (std::size_t i : rest.homeless) {
+      stuck_ = i;
+      if (!insertion_.swap_in(charts, collapses[i])) return false;
+      if (insertion_.is_squeezed()) rest.squeezed.push_back(i);
+    }
+  for (const Rest& rest : rests)
+    for (std::size_t i : rest.squeezed) {
+      domain::gather_star(charts.topology, collapses[i].removed, star_);
+      relax_ring(charts, star_);
+    }
+  for (const Rest& rest : rests)
+    for (std::size_t i : rest.at_border) {
+      stuck_ = i;
+      if (!undo_one(charts, collapses[i])) return false;
+    }
   return true;
 }
 

@@ -35,7 +35,7 @@ class CollapseUndoing {
   std::uint32_t cone_swaps() const { return insertion_.cone_swaps(); }
 
  private:
-  // What a part leaves for later, by the index of the collapse, descending.
+  // What a part leaves for later, by the index of the collapse.
   struct Rest {
     std::vector<std::size_t> at_border;  // not undone
     std::vector<std::size_t> homeless;   // undone, but there was no room
@@ -45,7 +45,7 @@ class CollapseUndoing {
   void undo_part(ConeCharts& charts, std::span<const domain::CollapseRecord> collapses,
                  std::size_t part, Rest& rest) const;
   bool finish(ConeCharts& charts, std::span<const domain::CollapseRecord> collapses,
-              const Rest& rest);
+              std::span<Rest> rests);
   bool undo_one(ConeCharts& charts, const domain::CollapseRecord& collapse);
   void relax_ring(ConeCharts& charts, const domain::Star& star);
   std::size_t part_of(std::uint32_t vertex) const;
