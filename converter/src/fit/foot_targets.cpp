@@ -1,6 +1,7 @@
 #include "fit/foot_targets.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "relax/parallel_loop.h"
 
@@ -9,6 +10,9 @@ namespace {
 
 // Features are thin: what a foot on one counts against a foot on the surface.
 constexpr double kFeatureWeight = 8;
+// The least area that a foot counts for, in units of the mean: where faces are tiny, the penalty,
+// which knows no areas, would win over the distances and put loops into rims.
+constexpr double kLeastArea = 0.2;
 // Walks from the last foot of a limit point to the present one.
 constexpr int kFootSteps = 2;
 // The weight of a vertex in a point that lies on it.
@@ -64,8 +68,8 @@ std::vector<FootTarget> follow_feet(const relax::InputSurface& input, const doma
   std::vector<FootTarget> feet(limit.size());
   relax::for_each_index(limit.size(), [&](std::size_t v) {
     feet[v] = follow(input, domain, limit[v], foot_points[v]);
-    feet[v].weight =
-        static_cast<float>((feet[v].is_on_feature() ? kFeatureWeight : 1.0) * areas[v]);
+    const double share = feet[v].is_on_feature() ? kFeatureWeight : 1.0;
+    feet[v].weight = static_cast<float>(share * std::max(areas[v], kLeastArea));
   });
   return feet;
 }

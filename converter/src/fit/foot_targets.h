@@ -24,7 +24,8 @@ struct FootTarget {
 
 /// The feet of the vertices of the limit mesh `limit`, `finest`. `foot_points` are those known so
 /// far: they are led on by short walks along the input. Weights are areas and add up to the number
-/// of limit vertices, but that feet on features count more. About 0.5 microseconds a limit vertex.
+/// of limit vertices, but that feet on features and in tiny faces count more. About 0.5
+/// microseconds a limit vertex.
 std::vector<FootTarget> follow_feet(const relax::InputSurface& input, const domain::Domain& domain,
                                     const relax::SubdividedLevel& finest, const Points& limit,
                                     std::vector<relax::SurfacePoint>& foot_points);
