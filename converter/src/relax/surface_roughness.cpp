@@ -9,7 +9,7 @@ namespace {
 using domain::kNext;
 
 // Averages over neighbours: the root of it in rings is felt.
-constexpr int kAverages = 16;
+constexpr int kAverages = 6;
 
 // Squared turns of the normal per squared length times their weights, and the weights: areas.
 struct Bend {
