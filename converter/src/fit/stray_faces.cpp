@@ -41,14 +41,11 @@ std::vector<std::uint32_t> find_stray(const InputOrientation& orientation,
   return stray;
 }
 
-// The vertices of the faces that may move.
-std::vector<std::uint32_t> free_corners(const relax::SubdividedLevel& finest,
-                                        const std::vector<std::uint8_t>& held,
-                                        const std::vector<std::uint32_t>& faces) {
+std::vector<std::uint32_t> corners_of(const relax::SubdividedLevel& finest,
+                                      const std::vector<std::uint32_t>& faces) {
   std::vector<std::uint32_t> corners;
   for (std::uint32_t f : faces)
-    for (std::uint32_t v : finest.triangles[f])
-      if (!held[v]) corners.push_back(v);
+    corners.insert(corners.end(), finest.triangles[f].begin(), finest.triangles[f].end());
   std::ranges::sort(corners);
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   return corners;
@@ -79,9 +76,18 @@ void move_to_neighbours(const relax::SubdividedLevel& finest,
 
 }  // namespace
 
+std::vector<std::uint32_t> find_long_faces(const relax::SubdividedLevel& finest,
+                                           const Points& limit,
+                                           const std::vector<std::uint32_t>& faces) {
+  const double squared_length = kLong * kLong * mean_squared_edge(finest, limit);
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t f : faces)
+    if (longest_squared_edge(limit, finest.triangles[f]) >= squared_length) found.push_back(f);
+  return found;
+}
+
 std::uint32_t draw_in_stray_faces(const InputOrientation& orientation,
                                   const relax::SubdividedLevel& finest, const LimitOperator& limit,
-                                  const std::vector<std::uint8_t>& held,
                                   std::vector<relax::SurfacePoint>& feet, Points& points) {
   const relax::InputSurface& input = orientation.input();
   Points at;
@@ -93,7 +99,7 @@ std::uint32_t draw_in_stray_faces(const InputOrientation& orientation,
         find_stray(orientation, finest, feet, at, squared_length);
     if (round == 0) found = static_cast<std::uint32_t>(stray.size());
     if (stray.empty()) break;
-    const std::vector<std::uint32_t> moved = free_corners(finest, held, stray);
+    const std::vector<std::uint32_t> moved = corners_of(finest, stray);
     move_to_neighbours(finest, moved, points);
     limit.apply(points, at);
     for (std::uint32_t v : moved)

@@ -76,7 +76,7 @@ FittedSurface fit_control_points(const domain::Domain& domain,
   }
   FittedSurface fitted;
   const InputOrientation orientation(input);
-  draw_in_stray_faces(orientation, finest, limit, held, foot_points, points);
+  draw_in_stray_faces(orientation, finest, limit, foot_points, points);
   fitted.turned_faces = turn_faces_back(orientation, finest, limit, held, foot_points, points);
   fitted.points = std::move(points);
   return fitted;

@@ -8,6 +8,7 @@
 
 #include "fit/face_untangling.h"
 #include "fit/input_orientation.h"
+#include "fit/stray_faces.h"
 #include "fit/untangling_patch.h"
 #include "relax/parallel_loop.h"
 
@@ -26,6 +27,10 @@ constexpr std::array<Attempt, 4> kAttempts{
 
 // A patch of more faces has been lost by the base mesh: laying it out takes long and finds nothing.
 constexpr std::size_t kMostFacesOfPatch = 1000;
+
+// If more faces than this stay turned after the first attempt, they lie in limbs that the base has
+// lost: others would take long and find little, but that long faces do harm enough to go on.
+constexpr std::size_t kMostTurned = 1000;
 
 // The turned ones among the faces that have a marked vertex.
 std::vector<std::uint32_t> find_turned(const InputOrientation& orientation,
@@ -54,10 +59,11 @@ std::uint32_t turn_faces_back(const InputOrientation& orientation,
   limit.apply(points, at);
   std::vector<std::uint8_t> marks(points.size(), 1);
   std::vector<std::uint32_t> turned = find_turned(orientation, finest, feet, at, marks);
+  std::vector<std::uint32_t> centres = turned;
   for (const auto& [rings, weights] : kAttempts) {
-    if (turned.empty()) break;
+    if (centres.empty()) break;
     const std::vector<UntanglingPatch> patches =
-        untangling_patches(finest, limit, held, turned, rings);
+        untangling_patches(finest, limit, held, centres, rings);
     tbb::parallel_for(std::size_t{0}, patches.size(), [&](std::size_t i) {
       if (patches[i].faces.size() <= kMostFacesOfPatch)
         untangle(orientation, patches[i], weights, feet, at, points);
@@ -69,6 +75,7 @@ std::uint32_t turn_faces_back(const InputOrientation& orientation,
     for (const UntanglingPatch& patch : patches)
       for (std::uint32_t i = 0; i < patch.moving_count; ++i) marks[patch.vertices[i]] = 1;
     turned = find_turned(orientation, finest, feet, at, marks);
+    centres = turned.size() > kMostTurned ? find_long_faces(finest, at, turned) : turned;
   }
   return static_cast<std::uint32_t>(turned.size());
 }

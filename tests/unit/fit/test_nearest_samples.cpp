@@ -56,7 +56,7 @@ TEST(NearestSamples, AreMostlyTheNearestOfAll) {
     const Remeshed remeshed(scan);
     fit::NearestSamples nearest(remeshed.input(), remeshed.finest(), remeshed.relaxed.points);
     fit::Points limit = remeshed.relaxed.mesh.positions;
-    EXPECT_GT(share_of_nearest(remeshed, limit, nearest.follow(limit)), 0.95) << scan.name;
+    EXPECT_GT(share_of_nearest(remeshed, limit, nearest.follow(limit)), 0.93) << scan.name;
     // They go on when the mesh moves.
     const double step = 0.003 * bounding_box_diagonal(limit);
     const fit::Points noise = random_points(limit.size(), 3);

@@ -16,12 +16,11 @@ using fit::Points;
 constexpr std::size_t kThrown = 100;  // a vertex, thrown by this vector
 const Vector3d kThrow(3, 2, -1);
 
-std::uint32_t draw_in(const Fitted& surface, const std::vector<std::uint8_t>& held,
-                      Points& points) {
+std::uint32_t draw_in(const Fitted& surface, Points& points) {
   const relax::InputSurface input = surface.input();
   std::vector<relax::SurfacePoint> feet = surface.relaxed.points;
   return fit::draw_in_stray_faces(fit::InputOrientation(input), surface.finest(), surface.limit,
-                                  held, feet, points);
+                                  feet, points);
 }
 
 const Fitted& bumpy_sphere() {
@@ -33,7 +32,7 @@ TEST(StrayFaces, AreDrawnIn) {
   const Fitted& sphere = bumpy_sphere();
   Points points = sphere.points;
   points[kThrown] += kThrow;
-  EXPECT_GT(draw_in(sphere, sphere.held, points), 0u);
+  EXPECT_GT(draw_in(sphere, points), 0u);
   EXPECT_LT((points[kThrown] - sphere.points[kThrown]).norm(), 0.25 * kThrow.norm());
   // What lies elsewhere stays.
   std::size_t moved = 0;
@@ -45,19 +44,9 @@ TEST(StrayFaces, AreNoneOnAGoodFit) {
   for (const Scan& scan : scans()) {
     const Fitted surface(scan.mesh, scan.options);
     Points points = surface.points;
-    EXPECT_EQ(draw_in(surface, surface.held, points), 0u) << scan.name;
+    EXPECT_EQ(draw_in(surface, points), 0u) << scan.name;
     EXPECT_EQ(points, surface.points) << scan.name;
   }
-}
-
-TEST(StrayFaces, KeepHeldVertices) {
-  const Fitted& sphere = bumpy_sphere();
-  Points points = sphere.points;
-  points[kThrown] += kThrow;
-  std::vector<std::uint8_t> held = sphere.held;
-  held[kThrown] = 1;
-  EXPECT_GT(draw_in(sphere, held, points), 0u);
-  EXPECT_EQ(points[kThrown], sphere.points[kThrown] + kThrow);
 }
 
 }  // namespace
