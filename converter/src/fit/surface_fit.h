@@ -33,7 +33,7 @@ struct FittedSurface {
 /// vertices to the input and from the input's vertices to the limit surface, plus a penalty on the
 /// finest details. Where a limit point lies on the input is known from the parameterisation and
 /// followed by short walks, where an input vertex lies on the limit surface by going downhill from
-/// triangle to triangle. The result does not depend on the number of threads. Cost: about 3
+/// triangle to triangle. The result does not depend on the number of threads. Cost: about 5
 /// microseconds and 400 bytes per finest vertex, if `relaxed` is given away.
 FittedSurface fit_control_points(const domain::Domain& domain,
                                  const remesh::Parameterisation& laid_out,

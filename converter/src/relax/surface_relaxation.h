@@ -39,7 +39,7 @@ struct RelaxedMesh {
 /// Samples the parameterised mesh of `domain` and relaxes the samples, coarse to fine: every
 /// position lies on the input, features keep to their curves, corners stay. The result does not
 /// depend on the number of threads. Throws Error (internal) if a sample has no place on the input.
-/// Cost: about 20 microseconds and 400 bytes per finest vertex.
+/// Cost: about 6 microseconds and 350 bytes per finest vertex.
 RelaxedMesh relax(const domain::Domain& domain, const remesh::Parameterisation& laid_out,
                   int levels, const RelaxOptions& options, const Progress& progress);
 
