@@ -13,7 +13,7 @@ namespace zerotree::analysis {
 
 struct AnalysisOptions {
   /// What the details are for: the transform that the stream names.
-  surface::WaveletTransform transform = surface::WaveletTransform::loop_quadrature_mirror;
+  surface::WaveletTransform transform = surface::WaveletTransform::loop_local;
   /// Residual of each level's solve relative to the size of the mesh (root mean square of the
   /// centred control points): far below a finest quantisation step.
   double tolerance = 1e-10;
@@ -24,9 +24,8 @@ struct AnalysisOptions {
 };
 
 /// Splits the control points of the hierarchy's finest level into those of the base and the
-/// details of each level, finest first, by solving [P Q] [p; d] = fine. The details' frames are
-/// those of the runtime: of the coarser level's own surface. Takes about 14 microseconds per vertex
-/// and 0.5 kB per vertex at its peak.
+/// details of each level, finest first, by solving [P Q] [p; d] = fine (see level_split.h for the
+/// costs).
 ///
 /// Throws Error (internal) if the number of points is not the finest level's, a point is not
 /// finite, or a solve does not converge.

@@ -10,7 +10,7 @@ namespace zerotree::analysis {
 struct WaveletDecomposition {
   std::vector<Eigen::Vector3d> base_control_points;
   /// details[j][e] belongs to edge e of level j (OpenSubdiv's numbering), so to vertex V_j + e of
-  /// level j + 1: (normal, tangent 1, tangent 2) in the local frame of the level's surface.
+  /// level j + 1; in the axes of the control points.
   std::vector<std::vector<Eigen::Vector3d>> details;
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis/local_details.h"
 #include "convert/debug_pictures.h"
 #include "convert/limit_mesh.h"
 #include "convert/measured_stream.h"
@@ -86,10 +87,10 @@ double remeshing_error(const SurfaceModel& model, const PrefixMeasurement& how) 
 }
 
 // Root mean squares of the details of each level, relative to the diagonal.
-std::vector<report::LevelDetails> level_details(const analysis::WaveletDecomposition& wavelets,
-                                                double diagonal) {
+std::vector<report::LevelDetails> level_details(
+    const std::vector<std::vector<Eigen::Vector3d>>& local_details, double diagonal) {
   std::vector<report::LevelDetails> levels;
-  for (const std::vector<Eigen::Vector3d>& details : wavelets.details) {
+  for (const std::vector<Eigen::Vector3d>& details : local_details) {
     double normal = 0, tangential = 0;
     for (const Eigen::Vector3d& d : details) {
       normal += d[0] * d[0];
@@ -222,10 +223,11 @@ report::ConvertReport convert_file(const ConvertOptions& asked, const Progress& 
   report.remeshing_error = clock.run("measure remesh", [&] { return remeshing_error(model, how); });
   report.remesh_remark = report::explain_remeshing_error(report);
   const analysis::WaveletDecomposition wavelets = analyse_model(model, options, clock, progress);
-  report.level_details = level_details(wavelets, report.diagonal);
+  const auto local_details = analysis::local_details(*model.hierarchy, wavelets);
+  report.level_details = level_details(local_details, report.diagonal);
   if (!options.debug_pictures.empty())
     clock.run("pictures", [&] {
-      write_debug_pictures(options.debug_pictures, {cleaned, original, model, wavelets, report},
+      write_debug_pictures(options.debug_pictures, {cleaned, original, model, local_details, report},
                            options.threads, progress);
     });
   const double finest_step =

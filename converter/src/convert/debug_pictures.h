@@ -3,7 +3,6 @@
 
 #include <filesystem>
 
-#include "analysis/wavelet_decomposition.h"
 #include "convert/surface_model.h"
 #include "measure/surface_index.h"
 #include "mesh/progress.h"
@@ -20,7 +19,8 @@ struct PictureSubject {
   const measure::SurfaceIndex& original;
   /// With its relaxed mesh.
   const SurfaceModel& model;
-  const analysis::WaveletDecomposition& wavelets;
+  /// Of each level and edge: normal, tangent 1, tangent 2.
+  const std::vector<std::vector<Eigen::Vector3d>>& local_details;
   const report::ConvertReport& report;
 };
 

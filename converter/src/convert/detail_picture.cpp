@@ -50,7 +50,7 @@ LogScale scale_of(const std::vector<report::LevelDetails>& levels) {
 // Of every vertex of level `level` + 1: that of its detail; old vertices get the mean around them.
 Energies energies_of_level(const PictureSubject& subject, std::size_t level, Part part) {
   const relax::SubdividedLevel& coarse = subject.model.relaxed->levels[level];
-  const std::vector<Eigen::Vector3d>& details = subject.wavelets.details[level];
+  const std::vector<Eigen::Vector3d>& details = subject.local_details[level];
   const double unit = subject.report.diagonal * subject.report.diagonal;
   Energies energies(coarse.vertex_count + coarse.edges.size(), 0.0);
   std::vector<int> neighbours(coarse.vertex_count, 0);

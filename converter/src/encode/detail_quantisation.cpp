@@ -1,12 +1,16 @@
 #include "encode/detail_quantisation.h"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesh/error.h"
+#include "surface/edge_frames.h"
+#include "surface/surface_synthesis.h"
 
 namespace zerotree::encode {
 namespace {
@@ -25,6 +29,33 @@ std::int32_t midpoint_value(double detail, double unit, int level) {
   return detail < 0 ? -(2 * m + 1) : 2 * m + 1;
 }
 
+// Fills the integers of one level, whose details are in the axes of the control points.
+void quantise_level(const surface::SubdivisionLevel& from, int level,
+                    const std::vector<Eigen::Vector3d>& details,
+                    const surface::Dequantisation& dequantisation, double mean_area,
+                    const surface::Positions& predicted, CoefficientSet& set) {
+  const std::size_t begin = bitstream::level_offset(set.base_edge_count, level);
+  std::array<double, bitstream::kChannelCount> units;
+  for (std::size_t c = 0; c < units.size(); ++c)
+    units[c] = double{surface::detail_unit(dequantisation, set.levels, level,
+                                           static_cast<bitstream::Channel>(c))};
+  for (std::size_t i = 0; i < from.edges.cell_to_edge.size(); ++i) {
+    const std::uint32_t edge = from.edges.cell_to_edge[i];
+    if (edge == bitstream::kNone) continue;
+    const surface::EdgeTangents tangents =
+        surface::edge_tangents(predicted.data(), from.vertex_count, from.edges.vertices[edge],
+                               from.edges.wings[edge]);
+    const double weight = double{surface::area_weight(tangents.triangle_area(), mean_area)};
+    const surface::EdgeFrame frame = tangents.frame();
+    const surface::Vector3 detail = {details[edge].x(), details[edge].y(), details[edge].z()};
+    const std::array<double, 3> local = {surface::dot_product(frame.normal, detail),
+                                         surface::dot_product(frame.tangent1, detail),
+                                         surface::dot_product(frame.tangent2, detail)};
+    for (std::size_t c = 0; c < units.size(); ++c)
+      set.channels[c][begin + i] = midpoint_value(local[c] * weight, units[c], level);
+  }
+}
+
 }  // namespace
 
 CoefficientSet quantise_details(const surface::SubdivisionHierarchy& hierarchy,
@@ -32,26 +63,20 @@ CoefficientSet quantise_details(const surface::SubdivisionHierarchy& hierarchy,
                                 const surface::Dequantisation& dequantisation,
                                 std::span<const float> base_positions) {
   const std::size_t base_edge_count = hierarchy.base_edges().size();
-  const std::vector<float> weights =
-      surface::base_edge_weights(hierarchy.base(), hierarchy.base_edges(), base_positions);
   CoefficientSet set{base_edge_count, hierarchy.levels(), {}};
-  for (auto& channel : set.channels) {
+  for (auto& channel : set.channels)
     channel.assign(bitstream::level_offset(base_edge_count, set.levels), 0);
-  }
-  for (int level = 0; level < set.levels; ++level) {
-    const std::vector<std::uint32_t>& cell_to_edge = hierarchy.level(level).edges.cell_to_edge;
-    const std::vector<Eigen::Vector3d>& details = decomposition.details[level];
-    const std::size_t begin = bitstream::level_offset(base_edge_count, level);
-    for (std::size_t i = 0; i < cell_to_edge.size(); ++i) {
-      if (cell_to_edge[i] == bitstream::kNone) continue;
-      const Eigen::Vector3d& detail = details[cell_to_edge[i]];
-      for (int c = 0; c < bitstream::kChannelCount; ++c) {
-        const float unit =
-            surface::detail_unit(dequantisation, set.levels, level,
-                                 static_cast<bitstream::Channel>(c), weights[i >> (2 * level)]);
-        set.channels[c][begin + i] = midpoint_value(detail[c], double{unit}, level);
-      }
-    }
+  surface::Positions points(base_positions.begin(), base_positions.end());
+  double mean_area = surface::mean_face_area(hierarchy.base(), base_positions);
+  for (int level = 0; level < set.levels; ++level, mean_area /= 4) {
+    const surface::SubdivisionLevel& from = hierarchy.level(level);
+    surface::Positions fine = surface::subdivide(from, points);
+    quantise_level(from, level, decomposition.details[static_cast<std::size_t>(level)],
+                   dequantisation, mean_area, fine, set);
+    const surface::LocalDetails decoded =
+        surface::dequantise(hierarchy, set, dequantisation, level);
+    surface::add_details(from, surface::detail_moves(from, decoded, mean_area, fine), fine);
+    points = std::move(fine);
   }
   return set;
 }

@@ -76,7 +76,7 @@ EncodedStream encode(const surface::SubdivisionHierarchy& hierarchy,
   content.base = base;
   bitstream::StreamHeader& header = content.header;
   header.external_base = !options.embed_base;
-  header.transform = static_cast<std::uint32_t>(options.transform);
+  header.transform = static_cast<std::uint32_t>(hierarchy.transform());
   header.levels = levels;
   header.finest_step = static_cast<float>(options.finest_step);
   header.tangent_ratio_log2 = options.tangent_ratio_log2;
@@ -84,7 +84,7 @@ EncodedStream encode(const surface::SubdivisionHierarchy& hierarchy,
   EncodedStream result;
   if (options.embed_base) {
     // Moving a base vertex is like a detail one level above the coarsest.
-    const double norm = surface::basis_norm(options.transform, levels);
+    const double norm = double{surface::basis_norm(levels)};
     QuantisedBase quantised =
         quantise_base(decomposition.base_control_points, options.base_position_bits,
                       double{header.finest_step} / norm);
@@ -97,13 +97,13 @@ EncodedStream encode(const surface::SubdivisionHierarchy& hierarchy,
   }
 
   const surface::Dequantisation dequantisation{
-      options.transform, header.finest_step, static_cast<float>(1u << options.tangent_ratio_log2)};
+      header.finest_step, static_cast<float>(1u << options.tangent_ratio_log2)};
   content.coefficients =
       quantise_details(hierarchy, decomposition, dequantisation, result.base_positions);
   if (options.embed_base) {
     const int bits = header.positions.bits;
     header.positions.initial_planes =
-        std::min(bits, std::max(kFewestInitialPlanes, bits - count_planes(content.coefficients)));
+        std::min(bits, std::max(kFewestInitialPlanes, bits - count_planes(content.coefficients) + (getenv("ZT_INIT") ? atoi(getenv("ZT_INIT")) : 0)));
   }
   StreamBytes stream = encode_stream(content);
   result.bytes = std::move(stream.bytes);

@@ -25,7 +25,7 @@ struct EncodeOptions {
   /// its basis functions spread widely, weighs no more than that of the details.
   int base_position_bits = 0;
   /// The transform that `decomposition` was made with.
-  surface::WaveletTransform transform = surface::WaveletTransform::loop_quadrature_mirror;
+  surface::WaveletTransform transform = surface::WaveletTransform::loop_local;
 };
 
 struct EncodedStream {

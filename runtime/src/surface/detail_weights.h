@@ -7,40 +7,40 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "bitstream/base_topology.h"
 #include "bitstream/coefficient_layout.h"
-#include "surface/wavelet_transform.h"
 
 namespace zerotree::surface {
 
 /// What a stream says about the size of its integers.
 struct Dequantisation {
-  WaveletTransform transform = WaveletTransform::loop_quadrature_mirror;
-  /// Finest quantisation step of a normal detail of basis norm and edge weight 1, in the unit of
+  /// Finest quantisation step of a normal detail of basis norm and area weight 1, in the unit of
   /// the control points.
   float step = 1.0f;
   /// Step of the tangential details in units of `step`.
   float tangent_ratio = 4.0f;
 };
 
-/// L2 norm of the basis function of a unit detail, `levels_above_finest` levels above the finest
-/// details (those of level J - 1 have 0), relative to that of the finest. From 6 on it doubles
-/// per level. Throws nothing; a negative argument counts as 0.
-float basis_norm(WaveletTransform transform, int levels_above_finest);
+/// L2 norm of a detail's basis function, `levels_above_finest` (>= 0) levels above the finest
+/// details, relative to that of the finest: it is the same function, twice as wide per level.
+constexpr float basis_norm(int levels_above_finest) {
+  float norm = 1.0f;
+  for (int level = 0; level < levels_above_finest; ++level) norm *= 2.0f;
+  return norm;
+}
 
-/// Per base edge the square root of (mean area of its one or two base faces / mean area of all
-/// base faces), held within 1/8 .. 8 so that a degenerate base stays finite.
-/// `base_positions` holds x, y, z of each base vertex.
-std::vector<float> base_edge_weights(const bitstream::BaseTopology& topology,
-                                     const std::vector<bitstream::BaseEdge>& base_edges,
-                                     std::span<const float> base_positions);
+/// Mean area of the flat triangles of a base mesh; `positions` holds x, y, z of each vertex.
+double mean_face_area(const bitstream::BaseTopology& topology, std::span<const float> positions);
+
+/// The weight of a detail whose edge has triangles of `area` where the level's mean is `mean_area`:
+/// the root of their ratio, held within 1/16 .. 16; 1 if that is no number.
+float area_weight(double area, double mean_area);
 
 /// What a value of 2 in a `CoefficientSet` is worth: the length of the detail component of
-/// `channel` at `level` (0 .. levels - 1) below a base edge of weight `edge_weight`. A value v
-/// stands for v / 2 times this length.
+/// `channel` at `level` (0 .. levels - 1) where the area weight is 1. A value v of weight w stands
+/// for v / 2 times this length over w.
 float detail_unit(const Dequantisation& dequantisation, int levels, int level,
-                  bitstream::Channel channel, float edge_weight);
+                  bitstream::Channel channel);
 
 }  // namespace zerotree::surface

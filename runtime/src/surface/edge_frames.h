@@ -17,28 +17,29 @@ struct EdgeFrame {
   Vector3 normal, tangent1, tangent2;
 };
 
+inline Vector3 cross_product(const Vector3& a, const Vector3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double dot_product(const Vector3& a, const Vector3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 /// The frame of the surface whose tangents are `along` and `across`: tangent 1 points along,
 /// tangent 2 to the side of `across`. Orthonormal and finite for any arguments: where they do not
 /// span a plane (zero, parallel, not finite) a fixed choice takes their place.
 inline EdgeFrame frame_from_tangents(const Vector3& along, const Vector3& across) {
-  const auto dot = [](const Vector3& a, const Vector3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  };
-  const auto cross = [](const Vector3& a, const Vector3& b) {
-    return Vector3{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  };
   const auto scaled = [](const Vector3& a, double s) {
     return Vector3{a[0] * s, a[1] * s, a[2] * s};
   };
   const auto is_usable = [](double squared) { return squared > 1e-60 && squared < 1e200; };
 
   EdgeFrame frame;
-  const double along2 = dot(along, along);
+  const double along2 = dot_product(along, along);
   frame.tangent1 =
       is_usable(along2) ? scaled(along, 1.0 / std::sqrt(along2)) : Vector3{1.0, 0.0, 0.0};
-  Vector3 normal = cross(frame.tangent1, across);
-  double normal2 = dot(normal, normal);
-  const double across2 = dot(across, across);
+  Vector3 normal = cross_product(frame.tangent1, across);
+  double normal2 = dot_product(normal, normal);
+  const double across2 = dot_product(across, across);
   if (!is_usable(across2) || !(normal2 > 1e-12 * across2)) {
     // The axis that tangent 1 is farthest from.
     std::size_t axis = 0;
@@ -46,35 +47,52 @@ inline EdgeFrame frame_from_tangents(const Vector3& along, const Vector3& across
       if (std::abs(frame.tangent1[k]) < std::abs(frame.tangent1[axis])) axis = k;
     Vector3 unit{};
     unit[axis] = 1.0;
-    normal = cross(frame.tangent1, unit);
-    normal2 = dot(normal, normal);
+    normal = cross_product(frame.tangent1, unit);
+    normal2 = dot_product(normal, normal);
   }
   frame.normal = scaled(normal, 1.0 / std::sqrt(normal2));
-  frame.tangent2 = cross(frame.normal, frame.tangent1);
+  frame.tangent2 = cross_product(frame.normal, frame.tangent1);
   return frame;
 }
 
-/// The frame of the coarser level's surface at an odd vertex, from the control points of the finer
-/// level before the detail is added: `predicted` = P * coarse, x, y, z per vertex. {tail, head} are
-/// the edge's even vertices, `wings` those of its EdgeLevel, `first_odd` the coarser level's number
-/// of vertices. In the interior these are Loop's limit tangents of the (always regular) odd vertex;
-/// on a crease the mean of both sides; on a boundary the B-spline curve and the surface beside it.
+/// Two tangents of the coarser level's surface at an odd vertex.
+struct EdgeTangents {
+  Vector3 along, across;
+  /// Mean area of the coarser level's triangles beside the edge, as this surface has it there.
+  double triangle_area() const {
+    const Vector3 normal = cross_product(along, across);
+    return area_share * std::sqrt(dot_product(normal, normal));
+  }
+  EdgeFrame frame() const { return frame_from_tangents(along, across); }
+
+  /// |along x across| counts the area of so many triangles; as a factor.
+  double area_share;
+};
+
+/// The tangents from the control points of the finer level before the detail is added: `predicted`
+/// = P * coarse, x, y, z per vertex. {tail, head} are the edge's even vertices, `wings` those of its
+/// EdgeLevel, `first_odd` the coarser level's number of vertices. In the interior these are Loop's
+/// limit tangents of the (always regular) odd vertex; on a crease the mean of both sides; on a
+/// boundary the B-spline curve and the surface beside it.
 template <class Real>
-EdgeFrame edge_frame(const Real* predicted, std::uint32_t first_odd,
-                     const std::array<std::uint32_t, 2>& vertices,
-                     const std::array<std::uint32_t, 4>& wings) {
+EdgeTangents edge_tangents(const Real* predicted, std::uint32_t first_odd,
+                           const std::array<std::uint32_t, 2>& vertices,
+                           const std::array<std::uint32_t, 4>& wings) {
   const auto even = [&](std::size_t k) { return predicted + 3 * std::size_t{vertices[k]}; };
   const auto odd = [&](std::size_t k) {
     return predicted + 3 * (std::size_t{first_odd} + wings[k]);
   };
   const Real *tail = even(0), *head = even(1), *left_tail = odd(0), *left_head = odd(1);
-  Vector3 along{}, across{};
+  EdgeTangents tangents;
+  auto& [along, across, area_share] = tangents;
   if (wings[2] == bitstream::kNone) {
+    area_share = 1.0 / 2.0;
     for (std::size_t k = 0; k < 3; ++k) {
       along[k] = static_cast<double>(head[k]) - tail[k];
       across[k] = static_cast<double>(left_tail[k]) + left_head[k] - tail[k] - head[k];
     }
   } else {
+    area_share = 1.0 / 12.0;
     const Real *right_tail = odd(2), *right_head = odd(3);
     for (std::size_t k = 0; k < 3; ++k) {
       along[k] = 2.0 * (static_cast<double>(head[k]) - tail[k]) + left_head[k] - left_tail[k] +
@@ -82,7 +100,7 @@ EdgeFrame edge_frame(const Real* predicted, std::uint32_t first_odd,
       across[k] = static_cast<double>(left_tail[k]) + left_head[k] - right_tail[k] - right_head[k];
     }
   }
-  return frame_from_tangents(along, across);
+  return tangents;
 }
 
 }  // namespace zerotree::surface

@@ -49,7 +49,7 @@ DecodeStatus ProgressiveSurface::feed(std::span<const std::uint8_t> bytes) {
 void ProgressiveSurface::check_header() {
   if (!decoder_.header_ready()) return;
   const bitstream::StreamHeader& header = decoder_.header();
-  if (header.transform != static_cast<std::uint32_t>(WaveletTransform::loop_quadrature_mirror))
+  if (!is_known_transform(header.transform))
     fail("the stream names wavelet transform " + std::to_string(header.transform) +
          ", which this version lacks");
   else if (external_ && decoder_.status() != DecodeStatus::broken &&
@@ -87,8 +87,14 @@ ProgressiveSurface::Counts ProgressiveSurface::counts(int level) const {
   return counts;
 }
 
+WaveletTransform ProgressiveSurface::transform() const {
+  // Without a header there are no details, so any transform will do.
+  return decoder_.header_ready() ? static_cast<WaveletTransform>(decoder_.header().transform)
+                                 : WaveletTransform::loop_local;
+}
+
 bool ProgressiveSurface::suits(const SubdivisionHierarchy* hierarchy, int level) const {
-  return hierarchy && hierarchy->levels() >= level &&
+  return hierarchy && hierarchy->levels() >= level && hierarchy->transform() == transform() &&
          hierarchy->base().crease_edges == base().crease_edges &&
          hierarchy->base().corner_vertices == base().corner_vertices;
 }
@@ -101,8 +107,7 @@ const SubdivisionLevel* ProgressiveSurface::topology(int level) {
     if (!suits(own_.get(), level)) {
       own_.reset();  // before the next one takes its memory
       try {
-        own_ = std::make_shared<const SubdivisionHierarchy>(
-            base(), level, WaveletTransform::loop_quadrature_mirror);
+        own_ = std::make_shared<const SubdivisionHierarchy>(base(), level, transform());
       } catch (const std::invalid_argument& error) {
         fail(error.what());
         return nullptr;
@@ -116,8 +121,7 @@ const SubdivisionLevel* ProgressiveSurface::topology(int level) {
 Positions ProgressiveSurface::control_points(int level) const {
   if (!decoder_.base_ready()) return reconstruct(*hierarchy_, external_->positions, {}, {}, level);
   const bitstream::StreamHeader& header = decoder_.header();
-  const Dequantisation dequantisation{static_cast<WaveletTransform>(header.transform),
-                                      header.finest_step,
+  const Dequantisation dequantisation{header.finest_step,
                                       std::ldexp(1.0f, header.tangent_ratio_log2)};
   return reconstruct(*hierarchy_, decoder_.base_positions(), decoder_.coefficients(),
                      dequantisation, level);

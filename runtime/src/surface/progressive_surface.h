@@ -33,8 +33,8 @@ class ProgressiveSurface {
   /// the base is no surface or the limits do not allow its levels.
   explicit ProgressiveSurface(ExternalBase base, const bitstream::Limits& limits = {});
 
-  /// A hierarchy to use wherever its base's sharp tags and levels suffice, so that several surfaces
-  /// of one base share it. Its base has this stream's triangles, its transform is the only one.
+  /// A hierarchy to use wherever its transform, sharp tags and levels suffice, so that several surfaces
+  /// of one base share it. Its base has this stream's triangles.
   void share(std::shared_ptr<const SubdivisionHierarchy> hierarchy);
 
   bitstream::DecodeStatus feed(std::span<const std::uint8_t> bytes);
@@ -68,6 +68,7 @@ class ProgressiveSurface {
   void fail(std::string why) { own_reason_ = std::move(why); }
   void check_external_base(const bitstream::Limits& limits);
   void check_header();
+  WaveletTransform transform() const;
   bool suits(const SubdivisionHierarchy* hierarchy, int level) const;
 
   std::optional<ExternalBase> external_;

@@ -23,14 +23,6 @@ namespace {
 using StencilTable = Far::StencilTableReal<float>;
 using StencilTableFactory = Far::StencilTableFactoryReal<float>;
 
-SharedStencils detail_stencils(const RefinerLevel& level, WaveletTransform transform) {
-  switch (transform) {
-    case WaveletTransform::loop_quadrature_mirror:
-      return quadrature_mirror_stencils(level);
-  }
-  return {};
-}
-
 std::unique_ptr<const StencilTable> subdivision_table(const Refiner& refiner) {
   StencilTableFactory::Options options;
   options.interpolationMode = StencilTableFactory::INTERPOLATE_VERTEX;
@@ -74,7 +66,7 @@ std::vector<std::array<std::uint32_t, 3>> triangles_of(const RefinerLevel& level
 
 SubdivisionHierarchy::SubdivisionHierarchy(const bitstream::BaseTopology& base, int levels,
                                            WaveletTransform transform)
-    : base_(base) {
+    : base_(base), transform_(transform) {
   bitstream::BaseEdges numbered = bitstream::number_base_edges(base);
   if (!numbered.error.empty()) throw std::invalid_argument(numbered.error);
   base_edges_ = std::move(numbered.edges);
@@ -88,11 +80,14 @@ SubdivisionHierarchy::SubdivisionHierarchy(const bitstream::BaseTopology& base, 
     level.triangles = triangles_of(refined);
     level.limit = limit_stencils(refined);
     if (number == levels) break;
-    level.details = detail_stencils(refined, transform);
     level.edges = number == 0 ? base_edge_level(refined, base_edges_)
                               : child_edge_level(
                                     refiner->GetLevel(number - 1),
                                     levels_[static_cast<std::size_t>(number) - 1].edges, refined);
+    if (transform == WaveletTransform::loop_local)
+      level.local_details = local_filter(refined, level.edges);
+    else
+      level.details = quadrature_mirror_stencils(refined);
   }
   if (levels == 0) return;
   const auto table = subdivision_table(*refiner);

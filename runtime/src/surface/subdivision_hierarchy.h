@@ -8,6 +8,7 @@
 
 #include "bitstream/base_topology.h"
 #include "surface/edge_forest.h"
+#include "surface/local_filter.h"
 #include "surface/shared_stencils.h"
 #include "surface/wavelet_transform.h"
 
@@ -26,7 +27,8 @@ struct SubdivisionLevel {
   SharedStencils limit;             ///< see limit_stencils.h
   EdgeLevel edges;                  ///< to the next level: where details belong
   SubdivisionStencils subdivision;  ///< to the next level: P
-  SharedStencils details;           ///< to the next level: Q, one row per edge
+  SharedStencils details;           ///< to the next level: Q, one row per edge; or
+  LocalFilter local_details;        ///< the transform loop_local
 };
 
 /// All levels 0 .. levels() of a base mesh, numbered as OpenSubdiv's uniform refinement does: the
@@ -39,6 +41,7 @@ class SubdivisionHierarchy {
   /// level would pass 2^31 vertices.
   SubdivisionHierarchy(const bitstream::BaseTopology& base, int levels, WaveletTransform transform);
 
+  WaveletTransform transform() const { return transform_; }
   int levels() const { return static_cast<int>(levels_.size()) - 1; }
   const SubdivisionLevel& level(int number) const {
     return levels_[static_cast<std::size_t>(number)];
@@ -49,6 +52,7 @@ class SubdivisionHierarchy {
 
  private:
   bitstream::BaseTopology base_;
+  WaveletTransform transform_;
   std::vector<bitstream::BaseEdge> base_edges_;
   std::vector<SubdivisionLevel> levels_;
 };

@@ -24,55 +24,86 @@ Positions subdivide(const SubdivisionLevel& level, const Positions& coarse) {
   return fine;
 }
 
-void add_details(const SubdivisionLevel& level, const LocalDetails& details, Positions& fine) {
-  // All frames come before the first detail moves a control point.
-  LocalDetails moves(details.size(), 0.0f);
-  const auto is_zero = [&](std::size_t edge) {
-    return details[3 * edge] == 0.0f && details[3 * edge + 1] == 0.0f &&
-           details[3 * edge + 2] == 0.0f;
-  };
+namespace {
+
+bool is_zero(const std::vector<float>& vectors, std::size_t edge) {
+  return vectors[3 * edge] == 0.0f && vectors[3 * edge + 1] == 0.0f && vectors[3 * edge + 2] == 0.0f;
+}
+
+void add(float* point, float weight, const float* move) {
+  for (std::size_t axis = 0; axis < 3; ++axis) point[axis] += weight * move[axis];
+}
+
+void add_columns(const SubdivisionLevel& level, const Moves& moves, Positions& fine) {
   for (std::size_t edge = 0; edge < level.edge_count; ++edge) {
-    if (is_zero(edge)) continue;
-    const EdgeFrame frame = edge_frame(fine.data(), level.vertex_count, level.edges.vertices[edge],
-                                       level.edges.wings[edge]);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      moves[3 * edge + axis] = static_cast<float>(frame.normal[axis] * details[3 * edge] +
-                                                  frame.tangent1[axis] * details[3 * edge + 1] +
-                                                  frame.tangent2[axis] * details[3 * edge + 2]);
-  }
-  for (std::size_t edge = 0; edge < level.edge_count; ++edge) {
-    if (is_zero(edge)) continue;
-    const float* move = &moves[3 * edge];
+    if (is_zero(moves, edge)) continue;
     const float* weight = level.details.row_weights(edge);
-    for (const std::uint32_t vertex : level.details.row_indices(edge)) {
-      float* point = &fine[3 * std::size_t{vertex}];
-      for (std::size_t axis = 0; axis < 3; ++axis) point[axis] += *weight * move[axis];
-      ++weight;
+    for (const std::uint32_t vertex : level.details.row_indices(edge))
+      add(&fine[3 * std::size_t{vertex}], *weight++, &moves[3 * edge]);
+  }
+}
+
+void add_local(const SubdivisionLevel& level, const Moves& moves, Positions& fine) {
+  Positions lifts(3 * std::size_t{level.vertex_count}, 0.0f);
+  const std::size_t first_odd = 3 * std::size_t{level.vertex_count};
+  const LocalFilter& filter = level.local_details;
+  for (std::size_t edge = 0; edge < level.edge_count; ++edge) {
+    if (is_zero(moves, edge)) continue;
+    add(&fine[first_odd + 3 * edge], 1.0f, &moves[3 * edge]);
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::size_t vertex = 3 * std::size_t{level.edges.vertices[edge][end]};
+      add(&fine[vertex], -filter.dips[edge][end], &moves[3 * edge]);
+      add(&lifts[vertex], -filter.lifts[edge][end], &moves[3 * edge]);
     }
   }
+  const Positions spread = subdivide(level, lifts);
+  for (std::size_t i = 0; i < fine.size(); ++i) fine[i] += spread[i];
+}
+
+}  // namespace
+
+Moves detail_moves(const SubdivisionLevel& level, const LocalDetails& details, double mean_area,
+                   const Positions& predicted) {
+  Moves moves(details.size(), 0.0f);
+  for (std::size_t edge = 0; edge < level.edge_count; ++edge) {
+    if (is_zero(details, edge)) continue;
+    const EdgeTangents tangents =
+        edge_tangents(predicted.data(), level.vertex_count, level.edges.vertices[edge],
+                      level.edges.wings[edge]);
+    const EdgeFrame frame = tangents.frame();
+    const float* detail = &details[3 * edge];
+    const double scale =
+        1.0 / static_cast<double>(area_weight(tangents.triangle_area(), mean_area));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      moves[3 * edge + axis] = static_cast<float>(
+          scale * (frame.normal[axis] * static_cast<double>(detail[0]) +
+                   frame.tangent1[axis] * static_cast<double>(detail[1]) +
+                   frame.tangent2[axis] * static_cast<double>(detail[2])));
+  }
+  return moves;
+}
+
+void add_details(const SubdivisionLevel& level, const Moves& moves, Positions& fine) {
+  if (level.local_details.dips.empty())
+    add_columns(level, moves, fine);
+  else
+    add_local(level, moves, fine);
 }
 
 LocalDetails dequantise(const SubdivisionHierarchy& hierarchy,
                         const bitstream::CoefficientSet& coefficients,
-                        const Dequantisation& dequantisation,
-                        const std::vector<float>& edge_weights, int level) {
+                        const Dequantisation& dequantisation, int level) {
   const std::vector<std::uint32_t>& cells = hierarchy.level(level).edges.cell_to_edge;
   const std::size_t first = bitstream::level_offset(coefficients.base_edge_count, level);
   LocalDetails details(3 * std::size_t{hierarchy.level(level).edge_count}, 0.0f);
-  for (int channel = 0; channel < bitstream::kChannelCount; ++channel) {
-    const auto kind = static_cast<bitstream::Channel>(channel);
-    const std::int32_t* values =
-        coefficients.channels[static_cast<std::size_t>(channel)].data() + first;
-    const std::size_t cells_per_base_edge = std::size_t{1} << (2 * level);
-    for (std::size_t base_edge = 0; base_edge < edge_weights.size(); ++base_edge) {
-      const float unit =
-          detail_unit(dequantisation, coefficients.levels, level, kind, edge_weights[base_edge]);
-      const std::size_t begin = base_edge * cells_per_base_edge;
-      for (std::size_t cell = begin; cell < begin + cells_per_base_edge; ++cell)
-        if (values[cell] != 0 && cells[cell] != bitstream::kNone)
-          details[3 * std::size_t{cells[cell]} + static_cast<std::size_t>(channel)] =
-              0.5f * static_cast<float>(values[cell]) * unit;
-    }
+  for (std::size_t channel = 0; channel < bitstream::kChannelCount; ++channel) {
+    const std::int32_t* values = coefficients.channels[channel].data() + first;
+    const float unit = detail_unit(dequantisation, coefficients.levels, level,
+                                   static_cast<bitstream::Channel>(channel));
+    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+      if (values[cell] != 0 && cells[cell] != bitstream::kNone)
+        details[3 * std::size_t{cells[cell]} + channel] =
+            0.5f * static_cast<float>(values[cell]) * unit;
   }
   return details;
 }
@@ -80,14 +111,15 @@ LocalDetails dequantise(const SubdivisionHierarchy& hierarchy,
 Positions reconstruct(const SubdivisionHierarchy& hierarchy, const Positions& base_control_points,
                       const bitstream::CoefficientSet& coefficients,
                       const Dequantisation& dequantisation, int level) {
-  const std::vector<float> weights =
-      base_edge_weights(hierarchy.base(), hierarchy.base_edges(), base_control_points);
+  double mean_area = mean_face_area(hierarchy.base(), base_control_points);
   Positions points = base_control_points;
-  for (int coarse = 0; coarse < level; ++coarse) {
-    Positions fine = subdivide(hierarchy.level(coarse), points);
-    if (coarse < coefficients.levels)
-      add_details(hierarchy.level(coarse),
-                  dequantise(hierarchy, coefficients, dequantisation, weights, coarse), fine);
+  for (int coarse = 0; coarse < level; ++coarse, mean_area /= 4) {
+    const SubdivisionLevel& from = hierarchy.level(coarse);
+    Positions fine = subdivide(from, points);
+    if (coarse < coefficients.levels) {
+      const LocalDetails details = dequantise(hierarchy, coefficients, dequantisation, coarse);
+      add_details(from, detail_moves(from, details, mean_area, fine), fine);
+    }
     points = std::move(fine);
   }
   return points;

@@ -20,16 +20,22 @@ using LocalDetails = std::vector<float>;
 /// P of `level`: control points of the next finer level without details.
 Positions subdivide(const SubdivisionLevel& level, const Positions& coarse);
 
-/// Adds Q of `level` times the details to `fine`, which holds what `subdivide` returned: the
-/// details' frames are taken from it.
-void add_details(const SubdivisionLevel& level, const LocalDetails& details, Positions& fine);
+/// The details of a level in global axes: x, y, z of each edge.
+using Moves = std::vector<float>;
 
-/// The lengths that the integers of one level stand for. `edge_weights` are those of
-/// base_edge_weights; `level` is below both the coefficients' and the hierarchy's levels.
+/// The moves that local details of area weight 1 stand for. `predicted` is what `subdivide`
+/// returned: frames and areas are taken from it. `mean_area` is that of the level's triangles.
+Moves detail_moves(const SubdivisionLevel& level, const LocalDetails& details, double mean_area,
+                   const Positions& predicted);
+
+/// Adds Q of `level` times the moves to `fine`.
+void add_details(const SubdivisionLevel& level, const Moves& moves, Positions& fine);
+
+/// The lengths that the integers of one level stand for where the area weight is 1. `level` is
+/// below both the coefficients' and the hierarchy's levels.
 LocalDetails dequantise(const SubdivisionHierarchy& hierarchy,
                         const bitstream::CoefficientSet& coefficients,
-                        const Dequantisation& dequantisation,
-                        const std::vector<float>& edge_weights, int level);
+                        const Dequantisation& dequantisation, int level);
 
 /// Control points of `level`, 0 .. hierarchy.levels(). Finer levels are not computed; a level
 /// beyond the coefficients' is subdivided on. Costs about 50 ns per vertex plus 100 ns per detail

@@ -10,6 +10,14 @@ namespace zerotree::surface {
 enum class WaveletTransform : std::uint8_t {
   /// The paper's quadrature mirror filter (section 3.3, figure 4).
   loop_quadrature_mirror = 0,
+  /// Each detail moves its odd vertex and, the other way, the two even vertices beside it (see
+  /// local_filter.h): nearly as orthogonal, and with small, fast support.
+  loop_local = 1,
 };
+
+/// True for the values a stream may name.
+constexpr bool is_known_transform(std::uint32_t value) {
+  return value <= static_cast<std::uint32_t>(WaveletTransform::loop_local);
+}
 
 }  // namespace zerotree::surface

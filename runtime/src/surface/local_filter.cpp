@@ -1,0 +1,46 @@
+#include "surface/local_filter.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+namespace zerotree::surface {
+
+namespace {
+
+struct EndWeights {
+  float dip, lift;
+};
+constexpr EndWeights kSurface = {0.30f, 0.05f};
+constexpr EndWeights kCurve = {0.30f, 0.10f};
+constexpr EndWeights kUntouched = {0.0f, 0.0f};
+
+EndWeights weights_at(const RefinerLevel& level, int vertex, bool edge_is_sharp) {
+  using Rule = OpenSubdiv::Sdc::Crease::Rule;
+  const Rule rule = level.GetVertexRule(vertex);
+  if (rule == Rule::RULE_CORNER) return kUntouched;
+  if (rule == Rule::RULE_CREASE) return edge_is_sharp ? kCurve : kUntouched;
+  static const float sd = getenv("ZT_DIP") ? (float)atof(getenv("ZT_DIP")) : kSurface.dip, sl = getenv("ZT_LIFT") ? (float)atof(getenv("ZT_LIFT")) : kSurface.lift;
+  const float scale = 6.0f / static_cast<float>(level.GetVertexEdges(vertex).size());
+  return {sd * scale, sl * scale};
+}
+
+}  // namespace
+
+LocalFilter local_filter(const RefinerLevel& level, const EdgeLevel& edges) {
+  LocalFilter filter;
+  filter.dips.resize(edges.vertices.size());
+  filter.lifts.resize(edges.vertices.size());
+  for (std::size_t edge = 0; edge < edges.vertices.size(); ++edge) {
+    const bool sharp = is_sharp(level, static_cast<int>(edge));
+    for (std::size_t end = 0; end < 2; ++end) {
+      const EndWeights weights =
+          weights_at(level, static_cast<int>(edges.vertices[edge][end]), sharp);
+      filter.dips[edge][end] = weights.dip;
+      filter.lifts[edge][end] = weights.lift;
+    }
+  }
+  return filter;
+}
+
+}  // namespace zerotree::surface
