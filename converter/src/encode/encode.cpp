@@ -9,6 +9,7 @@
 #include "bitstream/base_hash.h"
 #include "encode/base_quantisation.h"
 #include "encode/detail_quantisation.h"
+#include "encode/header_writer.h"
 #include "mesh/error.h"
 #include "surface/detail_weights.h"
 #include "surface/subdivision_hierarchy.h"
@@ -20,7 +21,7 @@ namespace {
 constexpr int kFewestInitialPlanes = 4;
 
 void check_options(const EncodeOptions& options) {
-  const float step = static_cast<float>(options.finest_step);
+  const float step = storable_step(options.finest_step);
   if (!(step > 0.0f) || !std::isfinite(step)) {
     throw Error(ExitCode::usage, "the quantisation step must be a positive number");
   }
@@ -78,7 +79,7 @@ EncodedStream encode(const surface::SubdivisionHierarchy& hierarchy,
   header.external_base = !options.embed_base;
   header.transform = static_cast<std::uint32_t>(options.transform);
   header.levels = levels;
-  header.finest_step = static_cast<float>(options.finest_step);
+  header.finest_step = storable_step(options.finest_step);
   header.tangent_ratio_log2 = options.tangent_ratio_log2;
 
   EncodedStream result;
@@ -87,7 +88,7 @@ EncodedStream encode(const surface::SubdivisionHierarchy& hierarchy,
     const double norm = surface::basis_norm(options.transform, levels);
     QuantisedBase quantised =
         quantise_base(decomposition.base_control_points, options.base_position_bits,
-                      double{header.finest_step} / norm);
+                      double{header.finest_step} / norm, header.finest_step);
     header.positions = quantised.quantisation;
     content.positions = std::move(quantised.integers);
     result.base_positions = std::move(quantised.positions);

@@ -14,11 +14,13 @@
 
 namespace zerotree::bitstream {
 
-/// What the value of a coordinate stands for.
+/// What the value of a coordinate stands for: a whole number of half integers' lengths, so that the
+/// same integers are the same point on every machine.
 inline float dequantise_coordinate(const PositionQuantisation& quantisation, std::size_t axis,
                                    std::int32_t value) {
-  return static_cast<float>(static_cast<double>(quantisation.origin[axis]) +
-                            0.5 * value * static_cast<double>(quantisation.scale));
+  const std::int64_t halves =
+      quantisation.origin[axis] * (std::int64_t{2} << origin_shift(quantisation.bits)) + value;
+  return static_cast<float>(static_cast<double>(halves) * (0.5 * double{quantisation.scale}));
 }
 
 /// Integer coordinates of which the upper planes are known. A value is twice the integer, at the

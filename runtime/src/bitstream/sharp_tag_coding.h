@@ -1,4 +1,4 @@
-// Crease and corner flags of an external base, which the base's own file cannot hold.
+// Crease and corner flags of a base.
 #pragma once
 
 #include <algorithm>
