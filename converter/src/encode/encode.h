@@ -23,7 +23,7 @@ struct EncodeOptions {
   /// The stream carries its base mesh (.zt); otherwise it is bound to an external one (glTF).
   bool embed_base = true;
   /// Bits per coordinate of an embedded base; 0 chooses so many that the error of the base, which
-  /// its basis functions spread widely, weighs no more than that of the details.
+  /// its basis functions spread widely, weighs about as much as that of the details.
   int base_position_bits = 0;
   /// The transform that `decomposition` was made with.
   surface::WaveletTransform transform = surface::WaveletTransform::loop_quadrature_mirror;
