@@ -17,8 +17,8 @@ void print_header(const bitstream::StreamHeader& header) {
   std::printf("  bit planes     %d, finest step %g, tangential x %d\n", header.planes,
               static_cast<double>(header.finest_step), 1 << header.tangent_ratio_log2);
   if (!header.external_base)
-    std::printf("  embedded base  connectivity %u bytes, positions %d bits per coordinate\n",
-                header.connectivity_bytes, header.positions.bits);
+    std::printf("  embedded base  positions %d bits per coordinate, %d of them first\n",
+                header.positions.bits, header.positions.initial_planes);
 }
 
 void print_levels(const bitstream::StreamDecoder& decoder) {

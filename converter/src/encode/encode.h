@@ -15,14 +15,15 @@ namespace zerotree::encode {
 
 struct EncodeOptions {
   /// Quantisation step of a normal detail of the finest level, in the unit of the input. Details of
-  /// coarser levels have a step shorter by their basis function's norm.
+  /// coarser levels have a step shorter by their basis function's norm. The stream holds three
+  /// digits of it: it is rounded down by up to 0.8 %.
   double finest_step = 0.0;
   /// Tangential details have a step 2^this times as long: 2 for scans, 3 for CAD-like models.
   int tangent_ratio_log2 = 2;
   /// The stream carries its base mesh (.zt); otherwise it is bound to an external one (glTF).
   bool embed_base = true;
   /// Bits per coordinate of an embedded base; 0 chooses so many that the error of the base, which
-  /// its basis functions spread widely, weighs no more than that of the details.
+  /// its basis functions spread widely, weighs about as much as that of the details.
   int base_position_bits = 0;
   /// The transform that `decomposition` was made with.
   surface::WaveletTransform transform = surface::WaveletTransform::loop_local;
@@ -39,10 +40,10 @@ struct EncodedStream {
   std::vector<PassEnd> pass_ends;
 };
 
-/// Quantises and codes a decomposition over `hierarchy`. An embedded base must be in canonical order
-/// (bitstream::canonical_base_order). Deterministic. Throws Error: refused_topology for a base that
-/// cannot be coded, target_not_reachable for a step too small for the format, usage for a step that
-/// is not positive.
+/// Quantises and codes a decomposition over `hierarchy`. An embedded base must be in canonical
+/// order (bitstream::canonical_base_order). Deterministic. Throws Error: refused_topology for a
+/// base that cannot be coded, target_not_reachable for a step too small for the format, usage for a
+/// step that is not positive.
 EncodedStream encode(const surface::SubdivisionHierarchy& hierarchy,
                      const analysis::WaveletDecomposition& decomposition,
                      const EncodeOptions& options);

@@ -53,14 +53,12 @@ void check_content(const StreamContent& content, std::size_t edge_count) {
   }
 }
 
-std::vector<std::uint8_t> code_connectivity(const bitstream::BaseTopology& base) {
-  RangeEncoder coder;
+void code_connectivity(RangeEncoder& coder, const bitstream::BaseTopology& base) {
   const bitstream::ConnectivityStatus status = bitstream::encode_base_connectivity(coder, base);
   if (!status.ok()) {
     throw Error(ExitCode::refused_topology,
                 std::string("cannot code the base mesh: ") + status.problem);
   }
-  return coder.finish();
 }
 
 }  // namespace
@@ -85,23 +83,20 @@ StreamBytes encode_stream(const StreamContent& content) {
   header.planes = count_planes(content.coefficients);
   header.has_sharp_tags =
       !content.base.crease_edges.empty() || !content.base.corner_vertices.empty();
-  std::vector<std::uint8_t> connectivity;
+  StreamBytes result{write_header(header), {}};
+  const std::size_t begin = result.bytes.size();
+
+  RangeEncoder coder;
   bitstream::PositionPlanes positions;
   if (!header.external_base) {
-    connectivity = code_connectivity(content.base);
-    header.connectivity_bytes = static_cast<std::uint32_t>(connectivity.size());
+    code_connectivity(coder, content.base);
     positions = bitstream::PositionPlanes(content.base, header.positions.bits);
   }
-  StreamBytes result{write_header(header), {}};
-  result.bytes.insert(result.bytes.end(), connectivity.begin(), connectivity.end());
-
   bitstream::SharpTagCoding tags(edges.edges, content.base.vertex_count);
   tags.set_tags(content.base);
   bitstream::DetailState state(edges, header.levels);
   bitstream::CodedPasses<RangeEncoder, KnownDetails> passes(
       header, tags, positions, state, KnownDetails(content.coefficients), content.positions);
-  RangeEncoder coder;
-  const std::size_t begin = result.bytes.size();
   while (!passes.done()) {
     const bitstream::PassPlace place = passes.place();
     passes.advance(coder);

@@ -15,8 +15,8 @@ namespace zerotree::encode {
 /// Everything a stream says, quantised.
 struct StreamContent {
   /// Transform, levels, step, tangential ratio, external or not, and for an embedded base the
-  /// quantisation of its positions or for an external one its hash. Counts, number of planes,
-  /// sharp tag flag and chunk length are filled in by the encoder.
+  /// quantisation of its positions or for an external one its hash. Counts, number of planes
+  /// and sharp tag flag are filled in by the encoder.
   bitstream::StreamHeader header;
   /// An embedded base must be in canonical order (bitstream::canonical_base_order).
   bitstream::BaseTopology base;

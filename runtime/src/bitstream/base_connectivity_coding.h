@@ -1,4 +1,5 @@
-// The coded form of the base connectivity, for encoder and decoder alike.
+// The coded form of the base connectivity, for encoder and decoder alike. Sharp tags come after it:
+// sharp_tag_coding.h.
 //
 // A bit coder offers `bool code(bool bit, AdaptiveBit& context)` and `bool code_raw(bool bit)`:
 // that of the encoder writes the bit and returns it, that of the decoder ignores it and returns the
@@ -11,7 +12,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "bitstream/adaptive_bit.h"
@@ -38,8 +38,6 @@ struct BaseConnectivityModel {
   AdaptiveBit near;                          // kJoin within kNearJoin steps
   AdaptiveBit backward;                      // its direction
   std::array<AdaptiveBit, 8> distance_bits;  // its distance: number of bits, unary
-  std::array<std::array<AdaptiveBit, 3>, 3> crease;  // by crease edges known at both ends
-  std::array<AdaptiveBit, 4> corner;                 // by crease edges at the vertex
 };
 
 /// Codes one connectivity with one bit coder.
@@ -48,31 +46,39 @@ class BaseConnectivityCoder {
  public:
   explicit BaseConnectivityCoder(BitCoder& coder) : coder_(coder) {}
 
-  /// Encoder: writes `topology`. Fails, and what was written is of no use, if it is not what
-  /// BaseTopology promises or not in canonical order.
+  /// Encoder: writes the triangles of `topology`. Fails, and what was written is of no use, if it
+  /// is not what BaseTopology promises or not in canonical order.
   ConnectivityStatus encode(const BaseTopology& topology) {
     ConnectivityStatus status = check_base_topology(topology);
     if (!status.ok()) return status;
-    BaseTopology copy = topology;
+    BaseTopology copy;
     const BaseTraversal traversal = traverse_base(topology);
     counts_ = {topology.vertex_count, static_cast<std::uint32_t>(topology.triangles.size())};
     has_boundary_ = code_raw(traversal.has_boundary);
+    forget_answers();
     std::size_t next = 0;
     status = grow_components(copy, [&] { return traversal.actions[next++]; });
     if (status.ok() && copy.triangles != topology.triangles) {
       status = {"the base mesh is not in canonical order"};
     }
-    if (status.ok()) code_tags(copy);
     return status;
   }
 
-  /// Decoder: reads a topology of exactly `counts` into `topology` (its old content is lost). Safe
-  /// on any bits: takes time O(n log n) and memory O(n) in the triangles decoded until the bits end
-  /// or make no sense, at most `counts`.
+  /// Decoder: reads a topology of exactly `counts` into `topology` (its old content is lost). If it
+  /// fails because the coder is `starved`, it may be called again with the same arguments once the
+  /// coder has more bytes, and goes on where it stopped. Safe on any bits: in all it takes time
+  /// O(n log n) and memory O(n) in the triangles decoded until the bits end or make no sense, at
+  /// most `counts`.
   ConnectivityStatus decode(BaseCounts counts, BaseTopology& topology) {
-    topology = {};
-    counts_ = counts;
-    has_boundary_ = code_raw(false);
+    starved_ = false;
+    if (!begun_) {
+      topology = {};
+      counts_ = counts;
+      has_boundary_ = code_raw(false);
+      if (starved_) return ended();
+      begun_ = true;
+      forget_answers();
+    }
     ConnectivityStatus status = grow_components(topology, [] {
       return GateAction{GateActionKind::kBoundary, kNone};
     });
@@ -80,55 +86,72 @@ class BaseConnectivityCoder {
     if (status.ok() && !has_boundary_ && !is_closed(topology)) {
       status = {"a closed base mesh has boundary edges"};
     }
-    if (!status.ok()) return status;
-    code_tags(topology);
-    return ended();
+    return status;
   }
+
+  /// The last call of `decode` failed for want of bytes.
+  bool starved() const { return starved_; }
 
  private:
   static constexpr std::uint32_t kNearJoin = 512;  // steps; nearer joins are coded by distance
 
   bool code(bool bit, AdaptiveBit& context) {
-    const bool result = coder_.code(bit, context);
-    starved_ = starved_ || coder_.starved();
-    return result;
+    return answer([&] { return coder_.code(bit, context); });
   }
-
   bool code_raw(bool bit) {
-    const bool result = coder_.code_raw(bit);
-    starved_ = starved_ || coder_.starved();
-    return result;
+    return answer([&] { return coder_.code_raw(bit); });
   }
 
-  ConnectivityStatus ended() const {
-    return {starved_ ? "the base connectivity is cut short" : nullptr};
+  /// The answers to one action's decisions are kept until the action is complete, so that a decoder
+  /// that starves within an action repeats them when it comes back.
+  template <class Ask>
+  bool answer(Ask ask) {
+    if (starved_) return false;
+    if (answered_ == answers_.size()) {
+      const bool bit = ask();
+      starved_ = coder_.starved();
+      if (starved_) return false;
+      answers_.push_back(bit);
+    }
+    return answers_[answered_++];
+  }
+
+  ConnectivityStatus ended() {
+    answered_ = 0;
+    return {"the base connectivity is cut short"};
   }
 
   /// Rebuilds `topology` triangle by triangle; `expected` tells the encoder's next action.
   template <class Expected>
   ConnectivityStatus grow_components(BaseTopology& topology, Expected expected) {
-    topology.triangles.clear();
     while (topology.triangles.size() < counts_.triangles) {
-      if (counts_.vertices - border_.vertex_count() < 3) return {"there are too few vertices"};
-      const std::uint32_t v = border_.vertex_count();
-      border_.seed();
-      topology.triangles.push_back({v, v + 1, v + 2});
-      for (std::uint32_t a;
-           topology.triangles.size() < counts_.triangles && (a = border_.next_gate()) != kNone;) {
-        const GateAction action = code_action(a, expected());
-        if (starved_) return ended();
-        if (!border_.allows(a, action)) return {"a gate joins where it cannot"};
-        const BorderNode& u = border_.nodes()[a];
-        const std::uint32_t w = border_.apex(a, action);
-        if (w != kNone) {
-          topology.triangles.push_back({u.vertex, border_.nodes()[u.next].vertex, w});
-        }
-        border_.apply(a, action);
+      const std::uint32_t a = border_.next_gate();
+      if (a == kNone) {
+        if (counts_.vertices - border_.vertex_count() < 3) return {"there are too few vertices"};
+        const std::uint32_t v = border_.vertex_count();
+        border_.seed();
+        topology.triangles.push_back({v, v + 1, v + 2});
+        continue;
       }
+      const GateAction action = code_action(a, expected());
+      if (starved_) return ended();
+      forget_answers();
+      if (!border_.allows(a, action)) return {"a gate joins where it cannot"};
+      const BorderNode& u = border_.nodes()[a];
+      const std::uint32_t w = border_.apex(a, action);
+      if (w != kNone) {
+        topology.triangles.push_back({u.vertex, border_.nodes()[u.next].vertex, w});
+      }
+      border_.apply(a, action);
     }
     topology.vertex_count = border_.vertex_count();
     if (topology.vertex_count != counts_.vertices) return {"there are too many vertices"};
     return {};
+  }
+
+  void forget_answers() {
+    answers_.clear();
+    answered_ = 0;
   }
 
   GateAction code_action(std::uint32_t a, GateAction expected) {
@@ -218,47 +241,15 @@ class BaseConnectivityCoder {
            std::find(opposites.begin(), opposites.end(), kNone) == opposites.end();
   }
 
-  /// Crease edges in the order of their first half-edge, then corner vertices in theirs.
-  void code_tags(BaseTopology& topology) {
-    std::vector<std::uint32_t> creases_at(topology.vertex_count, 0);
-    const auto creases = std::exchange(topology.crease_edges, {});
-    if (code_raw(!creases.empty())) code_creases(creases, topology, creases_at);
-    const auto expected = std::exchange(topology.corner_vertices, {});
-    if (!code_raw(!expected.empty())) return;
-    for (std::uint32_t v = 0; v < topology.vertex_count; ++v) {
-      const bool bit = std::binary_search(expected.begin(), expected.end(), v);
-      if (code(bit, model_.corner[std::min(creases_at[v], 3u)])) {
-        topology.corner_vertices.push_back(v);
-      }
-    }
-  }
-
-  void code_creases(const std::vector<std::array<std::uint32_t, 2>>& expected,
-                    BaseTopology& topology, std::vector<std::uint32_t>& creases_at) {
-    std::vector<std::uint32_t> opposites;
-    find_opposites(topology, opposites);
-    for (std::uint32_t h = 0; h < opposites.size(); ++h) {
-      if (opposites[h] == kNone || opposites[h] < h) continue;
-      const auto& triangle = topology.triangles[h / 3];
-      const auto [low, high] = std::minmax({triangle[h % 3], triangle[(h + 1) % 3]});
-      const bool bit = std::binary_search(expected.begin(), expected.end(),
-                                          std::array<std::uint32_t, 2>{low, high});
-      const auto [less, more] =
-          std::minmax({std::min(creases_at[low], 2u), std::min(creases_at[high], 2u)});
-      if (!code(bit, model_.crease[less][more])) continue;
-      ++creases_at[low];
-      ++creases_at[high];
-      topology.crease_edges.push_back({low, high});
-    }
-    std::sort(topology.crease_edges.begin(), topology.crease_edges.end());
-  }
-
   BitCoder& coder_;
   BaseConnectivityModel model_;
   CutBorder border_;
   BaseCounts counts_;
   bool has_boundary_ = false;
+  bool begun_ = false;
   bool starved_ = false;
+  std::vector<bool> answers_;  // of the action under way
+  std::size_t answered_ = 0;   // so many of them have been repeated
 };
 
 /// Writes a base mesh in canonical order; see BaseConnectivityCoder::encode.

@@ -12,7 +12,7 @@ class Fnv1a {
       hash_ = (hash_ ^ ((word >> shift) & 0xffu)) * 0x100000001b3u;
     }
   }
-  std::uint64_t value() const { return hash_; }
+  std::uint32_t folded() const { return static_cast<std::uint32_t>(hash_ ^ (hash_ >> 32)); }
 
  private:
   std::uint64_t hash_ = 0xcbf29ce484222325u;
@@ -20,7 +20,7 @@ class Fnv1a {
 
 }  // namespace
 
-std::uint64_t hash_base(const BaseTopology& base, std::span<const float> positions) {
+std::uint32_t hash_base(const BaseTopology& base, std::span<const float> positions) {
   Fnv1a hash;
   hash.add(base.vertex_count);
   hash.add(static_cast<std::uint32_t>(base.triangles.size()));
@@ -28,7 +28,7 @@ std::uint64_t hash_base(const BaseTopology& base, std::span<const float> positio
     for (const std::uint32_t v : t) hash.add(v);
   }
   for (const float x : positions) hash.add(std::bit_cast<std::uint32_t>(x));
-  return hash.value();
+  return hash.folded();
 }
 
 }  // namespace zerotree::bitstream

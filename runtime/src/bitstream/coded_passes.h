@@ -32,7 +32,7 @@ struct PassPlace {
   Pass pass = Pass::sharp_tags;
 };
 
-/// Runs the passes one after the other: the sharp tags of an external base, the initial planes of
+/// Runs the passes one after the other: the sharp tags of the base, the initial planes of
 /// an embedded base's positions, then plane by plane the details with one plane of positions
 /// between likely passes and refinement (paper, section 3.4: "each remaining bitplane is sent as
 /// the zerotrees descend another bit plane"), at last the planes of positions that are left.
@@ -49,7 +49,7 @@ class CodedPasses {
         true_positions_(true_positions),
         initial_left_(header.positions.initial_planes),
         place_{header.planes, Pass::sharp_tags} {
-    codes_tags_ = header.external_base && header.has_sharp_tags;
+    codes_tags_ = header.has_sharp_tags;
   }
 
   PassPlace place() const { return place_; }

@@ -14,11 +14,13 @@
 
 namespace zerotree::bitstream {
 
-/// What the value of a coordinate stands for.
+/// What the value of a coordinate stands for: a whole number of half integers' lengths, so that the
+/// same integers are the same point on every machine.
 inline float dequantise_coordinate(const PositionQuantisation& quantisation, std::size_t axis,
                                    std::int32_t value) {
-  return static_cast<float>(static_cast<double>(quantisation.origin[axis]) +
-                            0.5 * value * static_cast<double>(quantisation.scale));
+  const std::int64_t halves =
+      quantisation.origin[axis] * (std::int64_t{2} << origin_shift(quantisation.bits)) + value;
+  return static_cast<float>(static_cast<double>(halves) * (0.5 * double{quantisation.scale}));
 }
 
 /// Integer coordinates of which the upper planes are known. A value is twice the integer, at the
@@ -39,10 +41,16 @@ class PositionPlanes {
   bool code_plane(BitCoder& coder, std::span<const std::uint32_t> truth) {
     const int plane = unknown_ - 1;
     for (; next_ < values_.size(); ++next_) {
-      const bool bit = !truth.empty() && ((truth[next_] >> plane) & 1) != 0;
-      const bool upper = coder.code(bit, context(next_, plane));
+      const bool truly_upper = !truth.empty() && ((truth[next_] >> plane) & 1) != 0;
+      const Pull pull = neighbours_pull(next_);
+      bool upper = false;
+      if (tells_nothing(plane)) {
+        upper = coder.code_raw(truly_upper);
+      } else {
+        upper = coder.code(truly_upper != pull.down, context(pull, plane)) != pull.down;
+      }
       if (coder.starved()) return false;
-      values_[next_] += upper ? std::int32_t{1} << plane : -(std::int32_t{1} << plane);
+      settle(upper, plane, pull);
     }
     next_ = 0;
     unknown_ = plane;
@@ -50,19 +58,31 @@ class PositionPlanes {
   }
 
  private:
-  static constexpr int kOffsets = 12;  // of the expected value, in quarters of the open half
-  static constexpr int kPlanes = 4;    // the first ones have statistics of their own
+  static constexpr std::size_t kStrengths = 8;
 
-  AdaptiveBit& context(std::size_t coordinate, int plane);
+  /// From a coordinate to the mean of its neighbours.
+  struct Pull {
+    std::int64_t distance = 0;
+    bool down = false;
+  };
 
-  int bits_ = 0;
+  Pull neighbours_pull(std::size_t coordinate) const;
+  bool tells_nothing(int plane) const;
+  AdaptiveBit& context(const Pull& pull, int plane);
+  void settle(bool upper, int plane, const Pull& pull);
+
+  static constexpr int kSpreadFraction = 8;  // bits of spread_ below the point
+
+  std::int64_t spread() const { return std::max<std::int64_t>(spread_ >> kSpreadFraction, 1); }
+
   int unknown_ = 0;
   std::size_t next_ = 0;
   std::vector<std::int32_t> values_;
   // Neighbours of vertex v: ring_[ring_begin_[v]] .. ring_[ring_begin_[v + 1]], two per triangle.
   std::vector<std::uint32_t> ring_begin_;
   std::vector<std::uint32_t> ring_;
-  std::array<std::array<AdaptiveBit, kOffsets>, kPlanes> contexts_;
+  std::int64_t spread_ = 0;  // mean distance of late between a coordinate and its neighbours' mean
+  std::array<AdaptiveBit, kStrengths> contexts_;  // by how strongly the neighbours pull
 };
 
 }  // namespace zerotree::bitstream

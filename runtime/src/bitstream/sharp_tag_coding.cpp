@@ -1,5 +1,7 @@
 #include "bitstream/sharp_tag_coding.h"
 
+#include <utility>
+
 namespace zerotree::bitstream {
 namespace {
 
@@ -9,6 +11,18 @@ std::array<std::uint32_t, 2> ascending(const BaseEdge& edge) {
 }
 
 }  // namespace
+
+SharpTagCoding::SharpTagCoding(std::vector<BaseEdge> edges, std::uint32_t vertex_count)
+    : edges_(std::move(edges)),
+      creases_at_(vertex_count, 0),
+      edges_left_(vertex_count, 0),
+      edge_flags_(edges_.size(), 0),
+      vertex_flags_(vertex_count, 0) {
+  for (const BaseEdge& edge : edges_) {
+    if (edge.faces[1] == kNone) continue;
+    for (const std::uint32_t v : edge.vertices) ++edges_left_[v];
+  }
+}
 
 void SharpTagCoding::set_tags(const BaseTopology& base) {
   for (std::size_t e = 0; e < edges_.size(); ++e) {

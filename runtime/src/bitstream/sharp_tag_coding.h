@@ -1,11 +1,10 @@
-// Crease and corner flags of an external base, which the base's own file cannot hold.
+// Crease and corner flags of a base.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "bitstream/adaptive_bit.h"
@@ -18,11 +17,7 @@ namespace zerotree::bitstream {
 class SharpTagCoding {
  public:
   SharpTagCoding() = default;
-  SharpTagCoding(std::vector<BaseEdge> edges, std::uint32_t vertex_count)
-      : edges_(std::move(edges)),
-        creases_at_(vertex_count, 0),
-        edge_flags_(edges_.size(), 0),
-        vertex_flags_(vertex_count, 0) {}
+  SharpTagCoding(std::vector<BaseEdge> edges, std::uint32_t vertex_count);
 
   /// The encoder's truth: reads the tags of `base`.
   void set_tags(const BaseTopology& base);
@@ -35,18 +30,18 @@ class SharpTagCoding {
     for (; next_edge_ < edges_.size(); ++next_edge_) {
       const BaseEdge& edge = edges_[next_edge_];
       if (edge.faces[1] == kNone) continue;
-      std::uint32_t& first = creases_at_[edge.vertices[0]];
-      std::uint32_t& second = creases_at_[edge.vertices[1]];
-      // Creases are chains: they go on from vertices that have one already.
-      AdaptiveBit& context = crease_[std::min(first, 2u)][std::min(second, 2u)];
-      const bool crease = coder.code(edge_flags_[next_edge_] != 0, context);
+      const auto [less, more] =
+          std::minmax({situation(edge.vertices[0]), situation(edge.vertices[1])});
+      const bool crease = coder.code(edge_flags_[next_edge_] != 0, crease_[less][more]);
       if (coder.starved()) return false;
       edge_flags_[next_edge_] = crease ? 1 : 0;
-      first += crease ? 1u : 0u;
-      second += crease ? 1u : 0u;
+      for (const std::uint32_t v : edge.vertices) {
+        --edges_left_[v];
+        creases_at_[v] += crease ? 1u : 0u;
+      }
     }
     for (; next_vertex_ < vertex_flags_.size(); ++next_vertex_) {
-      AdaptiveBit& context = corner_[std::min(creases_at_[next_vertex_], 3u)];
+      AdaptiveBit& context = corner_[std::min(creases_at_[next_vertex_], 4u)];
       const bool corner = coder.code(vertex_flags_[next_vertex_] != 0, context);
       if (coder.starved()) return false;
       vertex_flags_[next_vertex_] = corner ? 1 : 0;
@@ -55,14 +50,25 @@ class SharpTagCoding {
   }
 
  private:
+  static constexpr std::size_t kSituations = 5;
+
+  /// Creases are chains: one that has come to a vertex goes on there, the surer the fewer edges are
+  /// left for it.
+  std::size_t situation(std::uint32_t vertex) const {
+    if (creases_at_[vertex] == 0) return 0;
+    if (creases_at_[vertex] > 1) return 2;
+    return edges_left_[vertex] > 3 ? 1 : edges_left_[vertex] > 1 ? 3 : 4;
+  }
+
   std::vector<BaseEdge> edges_;
   std::vector<std::uint32_t> creases_at_;  // crease edges known at each vertex
+  std::vector<std::uint32_t> edges_left_;  // interior edges not yet coded at each vertex
   std::vector<std::uint8_t> edge_flags_;
   std::vector<std::uint8_t> vertex_flags_;
   std::size_t next_edge_ = 0;
   std::size_t next_vertex_ = 0;
-  std::array<std::array<AdaptiveBit, 3>, 3> crease_;
-  std::array<AdaptiveBit, 4> corner_;
+  std::array<std::array<AdaptiveBit, kSituations>, kSituations> crease_;
+  std::array<AdaptiveBit, 5> corner_;
 };
 
 }  // namespace zerotree::bitstream

@@ -41,7 +41,6 @@ struct StreamDecoder::State {
   bool header_ready = false, base_ready = false;
   StreamHeader header;
   std::size_t header_size = 0;
-  std::size_t passes_begin = 0;  // first byte of the coded passes
 
   BaseTopology base;
   BaseEdges numbering;
@@ -49,15 +48,16 @@ struct StreamDecoder::State {
   PositionPlanes positions;
   DetailState details;
   RangeDecoder coder;
+  BaseConnectivityCoder<RangeDecoder> connectivity{coder};
   std::optional<Passes> passes;
 };
 
 void StreamDecoder::State::run() {
   if (status != DecodeStatus::more_bytes_wanted) return;
   if (!header_ready) read_stream_header();
-  if (status == DecodeStatus::more_bytes_wanted && header_ready && !passes) {
-    external ? accept_external_base() : read_connectivity();
-  }
+  if (!header_ready || status != DecodeStatus::more_bytes_wanted) return;
+  coder.set_bytes(std::span<const std::uint8_t>(bytes).subspan(header_size));
+  if (!passes) external ? accept_external_base() : read_connectivity();
   if (passes) run_passes();
 }
 
@@ -81,33 +81,28 @@ void StreamDecoder::State::accept_external_base() {
   if (external_positions.size() != std::size_t{external_base.vertex_count} * 3) {
     return fail("the base mesh given has not three coordinates per vertex");
   }
-  if (hash_base(external_base, external_positions) != header.base_hash ||
-      external_base.vertex_count != header.vertex_count ||
-      external_base.triangles.size() != header.face_count) {
+  if (external_base.triangles.empty() || external_base.triangles.size() > kMostFaces) {
+    return fail("the base mesh given has no faces, or too many");
+  }
+  if (hash_base(external_base, external_positions) != header.base_hash) {
     return fail("the base mesh given is not the one that the stream was made for");
   }
+  header.vertex_count = external_base.vertex_count;
+  header.face_count = static_cast<std::uint32_t>(external_base.triangles.size());
+  std::string beyond = check_size(header, limits);
+  if (!beyond.empty()) return fail(std::move(beyond));
   base = std::move(external_base);
   base.crease_edges.clear();
   base.corner_vertices.clear();
-  passes_begin = header_size;
   accept_base_edges();
 }
 
 void StreamDecoder::State::read_connectivity() {
-  if (bytes.size() - header_size < header.connectivity_bytes) return;
-  const std::span<const std::uint8_t> all = bytes;
-  RangeDecoder chunk(all.subspan(header_size, header.connectivity_bytes));
   const ConnectivityStatus decoded =
-      decode_base_connectivity(chunk, {header.vertex_count, header.face_count}, base);
+      connectivity.decode({header.vertex_count, header.face_count}, base);
+  if (connectivity.starved()) return;
   if (!decoded.ok()) return fail(std::string("base connectivity: ") + decoded.problem);
-  if (chunk.starved() || chunk.sequence_length() != header.connectivity_bytes) {
-    return fail("base connectivity: it does not end where the header says");
-  }
-  if (header.has_sharp_tags != (!base.crease_edges.empty() || !base.corner_vertices.empty())) {
-    return fail("base connectivity: its sharp tags contradict the header");
-  }
   positions = PositionPlanes(base, header.positions.bits);
-  passes_begin = header_size + header.connectivity_bytes;
   accept_base_edges();
 }
 
@@ -126,13 +121,14 @@ void StreamDecoder::State::accept_base_edges() {
 }
 
 void StreamDecoder::State::run_passes() {
-  coder.set_bytes(std::span<const std::uint8_t>(bytes).subspan(passes_begin));
   while (!passes->done()) {
     if (!passes->advance(coder)) return;
-    if (!base_ready) {
-      if (external) tags.get_tags(base);
-      base_ready = true;
+    if (base_ready) continue;
+    tags.get_tags(base);
+    if (header.has_sharp_tags && base.crease_edges.empty() && base.corner_vertices.empty()) {
+      return fail("the header announces sharp tags, but there are none");
     }
+    base_ready = true;
   }
   status = DecodeStatus::done;
 }
@@ -200,7 +196,7 @@ std::vector<float> StreamDecoder::base_positions() const {
 std::size_t StreamDecoder::bytes_consumed() const {
   const std::size_t fed = state_->bytes.size();
   if (state_->status != DecodeStatus::done) return fed;
-  return std::min(fed, state_->passes_begin + state_->coder.sequence_length());
+  return std::min(fed, state_->header_size + state_->coder.sequence_length());
 }
 
 }  // namespace zerotree::bitstream

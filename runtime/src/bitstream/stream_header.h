@@ -1,6 +1,7 @@
 // The first bytes of a stream: what it holds and how large it will be.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,26 +15,40 @@ namespace zerotree::bitstream {
 inline constexpr std::array<std::uint8_t, 2> kMagic = {'Z', 'T'};
 inline constexpr std::uint8_t kFormatVersion = 1;
 
-/// Bits of the header's flag byte; the others are zero.
-inline constexpr std::uint8_t kFlagExternalBase = 1;
-inline constexpr std::uint8_t kFlagSharpTags = 2;
+/// The third byte: version in the low four bits, two flags, the transform in the top two bits.
+inline constexpr std::uint8_t kVersionMask = 0x0f;
+inline constexpr std::uint8_t kFlagExternalBase = 0x10;
+inline constexpr std::uint8_t kFlagSharpTags = 0x20;
+inline constexpr int kTransformShift = 6;
 
 /// What the format allows, whatever a reader's own limits are.
 inline constexpr int kMostLevels = 14;
 inline constexpr int kMostPlanes = 30;
 inline constexpr int kMostPositionBits = 28;
 inline constexpr int kMostTangentRatioLog2 = 15;
+inline constexpr std::uint32_t kMostTransform = 3;
+inline constexpr std::uint32_t kMostFaces = 0x3fffffff;
 
-/// How an embedded base's positions are quantised: coordinate = origin + value / 2 * scale, where
-/// `value` is twice the integer's midpoint (see `PositionPlanes`).
+/// How an embedded base's positions are quantised; see `dequantise_coordinate`.
 struct PositionQuantisation {
-  std::array<float, 3> origin{};
+  /// Lowest corner of the cube of integers, in units of 2^origin_shift(bits) integers.
+  std::array<std::int32_t, 3> origin{};
+  /// Length of an integer; one of the 256 lengths that `scale_of` gives.
   float scale = 1.0f;
   /// Bits per coordinate.
   int bits = 0;
   /// Planes that come before the details; each further plane comes with a plane of details.
   int initial_planes = 0;
 };
+
+/// The origin stands on a grid of sixteenths of the cube, so that its numbers are small.
+inline int origin_shift(int position_bits) {
+  return std::max(position_bits - 4, 0);
+}
+
+/// The header's byte for the length of an integer: step * (4 + code mod 4) / 4 * 2^(code / 4 - 32).
+/// A length so bound to the step needs no exponent of its own.
+float scale_of(float finest_step, std::uint8_t code);
 
 struct StreamHeader {
   /// The base mesh is not in the stream; `base_hash` tells whether the right one is at hand.
@@ -43,17 +58,18 @@ struct StreamHeader {
   /// A surface::WaveletTransform.
   std::uint32_t transform = 0;
   int levels = 0;
+  /// Of the base. Those of an external one are not in the stream; its decoder fills them in.
   std::uint32_t vertex_count = 0;
   std::uint32_t face_count = 0;
   /// Bit planes of the largest detail.
   int planes = 0;
-  /// Step of the normal details of basis norm and edge weight 1, in the unit of the positions.
+  /// Step of the normal details of basis norm and edge weight 1, in the unit of the positions. A
+  /// bfloat16: the lower half of the float is zero.
   float finest_step = 1.0f;
   /// Tangential details have a step 2^this times as long.
   int tangent_ratio_log2 = 2;
-  PositionQuantisation positions;        ///< embedded base only
-  std::uint32_t connectivity_bytes = 0;  ///< embedded base only
-  std::uint64_t base_hash = 0;           ///< external base only
+  PositionQuantisation positions;  ///< embedded base only
+  std::uint32_t base_hash = 0;     ///< external base only
 };
 
 /// What a reader is willing to decode. A stream beyond is refused before memory is taken.
@@ -74,8 +90,12 @@ struct HeaderResult {
   std::size_t size = 0;
 };
 
-/// Reads a header off the front of `bytes`. Every field is checked against the format and against
-/// `limits`. Any bytes are safe; nothing is allocated.
+/// Whether a reader with these limits takes a stream with this header, by the counts in it: empty,
+/// or a sentence that says which limit it breaks.
+std::string check_size(const StreamHeader& header, const Limits& limits);
+
+/// Reads a header off the front of `bytes`. Every field is checked against the format and, but for
+/// the counts of an external base, against `limits`. Any bytes are safe; nothing is allocated.
 HeaderResult read_header(std::span<const std::uint8_t> bytes, const Limits& limits,
                          StreamHeader& header);
 

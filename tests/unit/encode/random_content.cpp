@@ -8,6 +8,7 @@
 #include "bitstream/base_hash.h"
 #include "bitstream/base_traversal.h"
 #include "bitstream/edge_image.h"
+#include "encode/header_writer.h"
 
 namespace zerotree::test {
 namespace {
@@ -60,10 +61,11 @@ encode::StreamContent empty_content(const bitstream::BaseTopology& base, int lev
   encode::StreamContent content;
   content.base = base;
   content.header.levels = levels;
-  content.header.finest_step = 0.001f;
+  content.header.finest_step = encode::storable_step(0.001);
   content.header.external_base = !embedded;
   if (embedded) {
-    content.header.positions = {{-1.0f, -2.0f, 3.0f}, 0.01f, kPositionBits, 4};
+    const float scale = encode::storable_scale(content.header.finest_step, 0.01);
+    content.header.positions = {{-1, -2, 3}, scale, kPositionBits, 4};
     std::mt19937 random(seed);
     for (std::size_t i = 0; i < std::size_t{base.vertex_count} * 3; ++i) {
       content.positions.push_back(static_cast<std::uint32_t>(random() >> (32 - kPositionBits)));
