@@ -19,6 +19,9 @@ int main(int argc, char** argv) {
       zerotree::gltf::write_glb(folder / (shape.name + ".glb"), asset);
       zerotree::gltf::write_split(folder / (shape.name + " split.glb"), asset);
       zerotree::gltf::write_split(folder / (shape.name + ".gltf"), asset);
+      const auto on_grid = zerotree::test::grid_asset(shape, 1001);
+      zerotree::gltf::write_glb(folder / (shape.name + "_compressed.glb"), on_grid, {true});
+      zerotree::gltf::write_split(folder / (shape.name + "_compressed.gltf"), on_grid, {true});
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "write_sample_glbs: %s\n", error.what());

@@ -88,6 +88,11 @@ void add_convert(CLI::App& app, int& exit_code) {
   command->add_option("--stream", options.stream, "Elementary stream with the base inside (.zt)");
   command->add_option("--report", arguments->report, "JSON report of all figures");
   command->add_flag("--split", options.split, "Payload in a file of its own, NAME.zt.bin");
+  command->add_flag("--compress-base", options.compress_base,
+                    "Smaller base mesh, for viewers that know KHR_mesh_quantization and "
+                    "EXT_meshopt_compression");
+  command->add_flag("--base-normals", options.base_normals,
+                    "Normals for the base mesh: smooth shading in viewers that show only that");
   command->add_option("--base-vertices", options.base_vertices, "Vertices of the base mesh [auto]")
       ->check(CLI::Range(4, 1000000));
   command->add_option("--levels", options.levels, "Subdivision levels [auto]")

@@ -9,13 +9,14 @@
 namespace zerotree::cli {
 namespace {
 
-void print_header(const bitstream::StreamHeader& header) {
+// `scale`: of the unit that the header counts lengths in.
+void print_header(const bitstream::StreamHeader& header, double scale) {
   std::printf("  base           %u vertices, %u faces, %s%s\n", header.vertex_count,
               header.face_count, header.external_base ? "in the glTF accessors" : "embedded",
               header.has_sharp_tags ? ", with creases or corners" : "");
   std::printf("  levels         %d\n", header.levels);
   std::printf("  bit planes     %d, finest step %g, tangential x %d\n", header.planes,
-              static_cast<double>(header.finest_step), 1 << header.tangent_ratio_log2);
+              scale * static_cast<double>(header.finest_step), 1 << header.tangent_ratio_log2);
   if (!header.external_base)
     std::printf("  embedded base  positions %d bits per coordinate, %d of them first\n",
                 header.positions.bits, header.positions.initial_planes);
@@ -50,7 +51,7 @@ void run_info(const std::filesystem::path& input) {
   std::printf("%s: %s of %zu bytes%s\n", input.string().c_str(),
               file.external_base ? "glTF payload" : "elementary stream", file.bytes.size(),
               decoder.status() == bitstream::DecodeStatus::done ? "" : ", cut off: a prefix");
-  if (decoder.header_ready()) print_header(decoder.header());
+  if (decoder.header_ready()) print_header(decoder.header(), file.placement.scale);
   if (decoder.base_ready()) print_levels(decoder);
   print_prefixes(file);
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "analysis/local_details.h"
+#include "convert/base_grid.h"
 #include "convert/debug_pictures.h"
 #include "convert/limit_mesh.h"
 #include "convert/measured_stream.h"
@@ -128,29 +129,44 @@ decode::StreamFile encode_model(const SurfaceModel& model,
   return file;
 }
 
+// For glTF: bound to the base of the accessors, which lies on a grid if it is to be compressed.
+decode::StreamFile encode_payload(const SurfaceModel& model,
+                                  const analysis::WaveletDecomposition& wavelets,
+                                  double finest_step, const ConvertOptions& options) {
+  if (!options.compress_base) return encode_model(model, wavelets, finest_step, false);
+  const gltf::Placement grid = grid_for(wavelets.base_control_points);
+  decode::StreamFile file =
+      encode_model(model, on_grid(wavelets, grid), finest_step / grid.scale, false);
+  file.placement = grid;
+  return file;
+}
+
 gltf::ProgressiveAsset measure_asset(const SurfaceModel& model, const decode::StreamFile& file,
                                      const ConvertOptions& options, const PrefixMeasurement& how,
                                      report::ConvertReport& report, const Progress& progress) {
-  const std::vector<Eigen::Vector3f> normals = base_normals(*model.hierarchy, file.base_positions);
+  std::vector<Eigen::Vector3f> normals;
+  if (options.base_normals) normals = base_normals(*model.hierarchy, file.base_positions);
   const auto asset_of = [&](const MeasuredStream& payload) {
     return make_asset(payload, model.hierarchy->levels(), how.diagonal, normals,
                       options.input.stem().string());
   };
   MeasuredStream payload = cut_and_measure(file, options, 0, how, progress);
   if (options.target_size > 0)
-    payload = cut_and_measure(file, options, payload_limit(asset_of(payload), options.target_size),
-                              how, progress);
+    payload = cut_and_measure(
+        file, options,
+        payload_limit(asset_of(payload), {options.compress_base}, options.target_size), how,
+        progress);
   report.payload_bytes = payload.file.bytes.size();
   report.payload_prefixes = payload.table.prefixes;
   return asset_of(payload);
 }
 
 void write_gltf(const std::filesystem::path& path, const gltf::ProgressiveAsset& asset,
-                bool split) {
-  if (split)
-    gltf::write_split(path, asset);
+                const ConvertOptions& options) {
+  if (options.split)
+    gltf::write_split(path, asset, {options.compress_base});
   else
-    gltf::write_glb(path, asset);
+    gltf::write_glb(path, asset, {options.compress_base});
 }
 
 // Encodes, measures and writes both outputs. All files are made and checked before one appears.
@@ -173,13 +189,12 @@ void write_outputs(const SurfaceModel& model, const analysis::WaveletDecompositi
   }
   if (!options.glb.empty()) {
     const decode::StreamFile encoded = clock.run(
-        "encode payload", [&] { return encode_model(model, wavelets, finest_step, false); });
+        "encode payload", [&] { return encode_payload(model, wavelets, finest_step, options); });
     const gltf::ProgressiveAsset asset = clock.run("measure payload", [&] {
       return measure_asset(model, encoded, options, how, report, progress);
     });
-    gltf_output.emplace(options.glb, [&](const std::filesystem::path& path) {
-      write_gltf(path, asset, options.split);
-    });
+    gltf_output.emplace(
+        options.glb, [&](const std::filesystem::path& path) { write_gltf(path, asset, options); });
   }
   if (stream_output) stream_output->commit();
   if (gltf_output) gltf_output->commit();

@@ -19,6 +19,11 @@ struct ConvertOptions {
   std::filesystem::path stream;
   /// Payload in a file of its own beside the glTF file.
   bool split = false;
+  /// The base mesh takes fewer bytes, but only viewers that know KHR_mesh_quantization and
+  /// EXT_meshopt_compression show it.
+  bool compress_base = false;
+  /// The base mesh has normals: viewers that do not know the extension shade it smoothly.
+  bool base_normals = false;
   /// Vertices of the base mesh; 0: from the input's size and topology.
   int base_vertices = 0;
   /// Subdivision levels; -1: from the input's density.

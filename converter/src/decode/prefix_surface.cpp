@@ -19,6 +19,12 @@ surface::ProgressiveSurface make_surface(const StreamFile& file) {
   return surface::ProgressiveSurface({file.base, file.base_positions, file.levels});
 }
 
+void put_in_place(const gltf::Placement& placement, std::vector<Eigen::Vector3f>& positions) {
+  if (placement.scale == 1 && placement.translation.isZero(0)) return;
+  for (Eigen::Vector3f& p : positions)
+    p = (placement.scale * p.cast<double>() + placement.translation).cast<float>();
+}
+
 }  // namespace
 
 PrefixSurface::PrefixSurface(const StreamFile& file,
@@ -83,6 +89,7 @@ exporter::Surface PrefixSurface::surface(std::optional<int> asked) {
   result.triangles = finest.triangles;
   surface::limit_surface(finest, control, {result.positions.data(), sizeof(Eigen::Vector3f)},
                          {result.normals.data(), sizeof(Eigen::Vector3f)});
+  put_in_place(file_.placement, result.positions);
   return result;
 }
 

@@ -30,9 +30,10 @@ class PrefixSurface {
   /// The stream holds enough for a surface: an external base always does, an embedded one once its
   /// connectivity is known.
   bool has_surface() const;
-  /// Limit positions and normals at `level`, 0 to the stream's levels; at `automatic_level` if
-  /// empty. Without a header, of an external base, it is the smooth surface of the base. Throws
-  /// Error(unreadable_input) unless `has_surface`, and Error(usage) for a level out of range.
+  /// Limit positions, put in place, and normals at `level`, 0 to the stream's levels; at
+  /// `automatic_level` if empty. Without a header, of an external base, it is the smooth surface of
+  /// the base. Throws Error(unreadable_input) unless `has_surface`, and Error(usage) for a level
+  /// out of range.
   exporter::Surface surface(std::optional<int> level = {});
 
  private:

@@ -39,7 +39,8 @@ StreamFile from_asset(gltf::ProgressiveAsset asset) {
   file.base_positions.reserve(asset.control_points.size() * 3);
   for (const Eigen::Vector3f& p : asset.control_points)
     file.base_positions.insert(file.base_positions.end(), {p.x(), p.y(), p.z()});
-  file.source_diagonal = asset.source_diagonal;
+  file.placement = asset.placement;
+  file.source_diagonal = asset.source_diagonal * asset.placement.scale;
   for (const gltf::PrefixEntry& entry : asset.prefixes)
     file.prefixes.push_back({entry.byte_length, entry.geometric_error / asset.source_diagonal});
   return file;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bitstream/base_topology.h"
+#include "gltf/progressive_asset.h"
 
 namespace zerotree::decode {
 
@@ -24,11 +25,13 @@ struct StreamFile {
   bool external_base = false;
   bitstream::BaseTopology base;
   std::vector<float> base_positions;
+  /// Puts what is decoded in place: a glTF mesh may lie on a grid of integers.
+  gltf::Placement placement;
   /// Levels that the glTF extension states for an external base: known before the first byte.
   int levels = 0;
   /// Ascending in bytes; empty for an elementary stream, which carries no measurements.
   std::vector<MeasuredPrefix> prefixes;
-  /// Bounding box diagonal of the source mesh; 0 if not known.
+  /// Bounding box diagonal of the source mesh, once put in place; 0 if not known.
   double source_diagonal = 0;
 };
 

@@ -10,30 +10,66 @@
 #include <string_view>
 #include <utility>
 
+#include "gltf/base_layout.h"
 #include "gltf/glb_container.h"
+#include "gltf/packed_view.h"
 #include "gltf/percent_encoding.h"
 #include "mesh/error.h"
 
 namespace zerotree::gltf {
 namespace {
 
+constexpr std::uint64_t kByte = 5120;
+constexpr std::uint64_t kUnsignedByte = 5121;
+constexpr std::uint64_t kShort = 5122;
+constexpr std::uint64_t kUnsignedShort = 5123;
+constexpr std::uint64_t kUnsignedInt = 5125;
 constexpr std::uint64_t kFloat = 5126;
-constexpr std::uint64_t kByteIndex = 5121;
-constexpr std::uint64_t kShortIndex = 5123;
-constexpr std::uint64_t kIntIndex = 5125;
-constexpr std::uint64_t kVectorSize = 3 * sizeof(float);
 
 std::uint64_t index_size(const JsonCursor& component_type) {
   switch (component_type.unsigned_integer()) {
-    case kByteIndex:
+    case kUnsignedByte:
       return 1;
-    case kShortIndex:
+    case kUnsignedShort:
       return 2;
-    case kIntIndex:
+    case kUnsignedInt:
       return 4;
     default:
       component_type.fail(IssueCode::accessor_unsupported, "indices are unsigned integers");
   }
+}
+
+// Bytes of a component of a vector; 0 for a type that vectors do not have.
+std::size_t component_size(std::uint64_t type) {
+  if (type == kFloat) return sizeof(float);
+  if (type == kByte || type == kUnsignedByte) return 1;
+  return type == kShort || type == kUnsignedShort ? 2 : 0;
+}
+
+// What a normalized integer is divided by.
+float largest_component(std::uint64_t type) {
+  if (type == kByte) return 127;
+  if (type == kUnsignedByte) return 255;
+  if (type == kShort) return 32767;
+  return type == kUnsignedShort ? 65535.0f : 1.0f;
+}
+
+template <class Component>
+float as_float(const std::uint8_t* bytes) {
+  Component value;
+  std::memcpy(&value, bytes, sizeof value);
+  return static_cast<float>(value);
+}
+
+float component(const std::uint8_t* bytes, std::uint64_t type) {
+  if (type == kByte) return as_float<std::int8_t>(bytes);
+  if (type == kUnsignedByte) return as_float<std::uint8_t>(bytes);
+  if (type == kShort) return as_float<std::int16_t>(bytes);
+  return type == kUnsignedShort ? as_float<std::uint16_t>(bytes) : as_float<float>(bytes);
+}
+
+bool is_true(const JsonCursor& flag) {
+  return flag.exists() && flag.value() == true;
 }
 
 bool has_scheme(std::string_view uri) {
@@ -124,33 +160,65 @@ std::vector<std::uint8_t> GltfDocument::load_uri(const JsonCursor& uri) const {
   }
 }
 
-ViewBytes GltfDocument::view_bytes(const JsonCursor& index) {
-  const std::uint64_t number = index.unsigned_integer();
-  const JsonCursor views = root().member("bufferViews");
-  if (number >= views.size())
-    index.fail(IssueCode::index_unresolved,
-               "bufferView " + std::to_string(number) + " of " + std::to_string(views.size()));
-  const JsonCursor view = views.element(number);
-  const std::uint64_t buffer = view.member("buffer").unsigned_integer();
-  const std::uint64_t offset = view.member("byteOffset").unsigned_integer_or(0);
-  const std::uint64_t length = view.member("byteLength").unsigned_integer();
+std::span<const std::uint8_t> GltfDocument::buffer_part(const JsonCursor& place,
+                                                        std::uint64_t offset,
+                                                        std::uint64_t length) {
+  const std::uint64_t buffer = place.member("buffer").unsigned_integer();
   const JsonCursor buffers = root().member("buffers");
   if (buffer >= buffers.size())
-    view.member("buffer").fail(
+    place.member("buffer").fail(
         IssueCode::index_unresolved,
         "buffer " + std::to_string(buffer) + " of " + std::to_string(buffers.size()));
   const std::uint64_t buffer_length =
       buffers.element(buffer).member("byteLength").unsigned_integer();
   // Neither sum overflows: JsonCursor's integers end at 2^53.
   if (length == 0 || offset + length > buffer_length)
-    view.fail(IssueCode::view_out_of_buffer, "bytes " + std::to_string(offset) + " to " +
-                                                 std::to_string(offset + length) + " of " +
-                                                 std::to_string(buffer_length));
+    place.fail(IssueCode::view_out_of_buffer, "bytes " + std::to_string(offset) + " to " +
+                                                  std::to_string(offset + length) + " of " +
+                                                  std::to_string(buffer_length));
   const auto bytes = buffer_bytes(buffer);
   const std::size_t begin = std::min<std::uint64_t>(bytes.size(), offset);
   const std::size_t end = std::min<std::uint64_t>(bytes.size(), offset + length);
-  return {bytes.subspan(begin, end - begin), length,
+  return bytes.subspan(begin, end - begin);
+}
+
+JsonCursor GltfDocument::view(const JsonCursor& index) const {
+  const std::uint64_t number = index.unsigned_integer();
+  const JsonCursor views = root().member("bufferViews");
+  if (number >= views.size())
+    index.fail(IssueCode::index_unresolved,
+               "bufferView " + std::to_string(number) + " of " + std::to_string(views.size()));
+  return views.element(number);
+}
+
+ViewBytes GltfDocument::view_bytes(const JsonCursor& index) {
+  const JsonCursor view = this->view(index);
+  const std::uint64_t length = view.member("byteLength").unsigned_integer();
+  return {buffer_part(view, view.member("byteOffset").unsigned_integer_or(0), length), length,
           view.member("byteStride").unsigned_integer_or(0)};
+}
+
+ViewBytes GltfDocument::unpacked_bytes(const JsonCursor& index) {
+  const JsonCursor view = this->view(index);
+  const JsonCursor packing = packing_of(view);
+  if (!packing.exists()) return view_bytes(index);
+  const std::uint64_t number = index.unsigned_integer();
+  if (!unpacked_.contains(number)) {
+    // One at a time: many views may name the same few bytes, and each takes 64 times as much.
+    unpacked_.clear();
+    const std::uint64_t length = packing.member("byteLength").unsigned_integer();
+    const auto packed =
+        buffer_part(packing, packing.member("byteOffset").unsigned_integer_or(0), length);
+    if (packed.size() < length)
+      packing.fail(IssueCode::buffer_too_short,
+                   std::to_string(length - packed.size()) + " bytes are missing");
+    unpacked_[number] = unpack_view(packing, packed);
+  }
+  const std::vector<std::uint8_t>& bytes = unpacked_[number];
+  if (view.member("byteLength").unsigned_integer() != bytes.size())
+    view.member("byteLength")
+        .fail(IssueCode::property_value, "it unpacks to " + std::to_string(bytes.size()));
+  return {bytes, bytes.size(), view.member("byteStride").unsigned_integer_or(0)};
 }
 
 GltfDocument::Elements GltfDocument::elements(const JsonCursor& accessor,
@@ -159,7 +227,7 @@ GltfDocument::Elements GltfDocument::elements(const JsonCursor& accessor,
     accessor.fail(IssueCode::accessor_unsupported, "it is sparse");
   const std::uint64_t offset = accessor.member("byteOffset").unsigned_integer_or(0);
   const std::uint64_t count = accessor.member("count").unsigned_integer();
-  const ViewBytes view = view_bytes(accessor.member("bufferView"));
+  const ViewBytes view = unpacked_bytes(accessor.member("bufferView"));
   const std::uint64_t stride = view.stride == 0 ? element_size : view.stride;
   if (count == 0) accessor.member("count").fail(IssueCode::property_value, "it is 0");
   if (stride < element_size)
@@ -176,15 +244,28 @@ GltfDocument::Elements GltfDocument::elements(const JsonCursor& accessor,
   return {view.available.subspan(offset), count, stride};
 }
 
+void GltfDocument::require_quantisation(const JsonCursor& accessor) const {
+  const JsonCursor required = root().member("extensionsRequired");
+  for (std::size_t i = 0; i < required.size(); ++i)
+    if (required.element(i).string() == kQuantisationExtension) return;
+  accessor.fail(IssueCode::accessor_unsupported,
+                "integers need KHR_mesh_quantization among extensionsRequired");
+}
+
 std::vector<Eigen::Vector3f> GltfDocument::read_vectors(const JsonCursor& index) {
   const JsonCursor accessor = root().member("accessors").element(index.unsigned_integer());
-  if (accessor.member("type").string() != "VEC3" ||
-      accessor.member("componentType").unsigned_integer() != kFloat)
-    accessor.fail(IssueCode::accessor_unsupported, "vectors are VEC3 of floats");
-  const Elements from = elements(accessor, kVectorSize);
+  const std::uint64_t type = accessor.member("componentType").unsigned_integer();
+  const std::size_t size = component_size(type);
+  if (accessor.member("type").string() != "VEC3" || size == 0)
+    accessor.fail(IssueCode::accessor_unsupported, "vectors are VEC3");
+  if (type != kFloat) require_quantisation(accessor);
+  const float divisor = is_true(accessor.member("normalized")) ? largest_component(type) : 1;
+  const Elements from = elements(accessor, 3 * size);
   std::vector<Eigen::Vector3f> vectors(from.count);
   for (std::size_t i = 0; i < from.count; ++i) {
-    std::memcpy(vectors[i].data(), from.bytes.data() + i * from.stride, kVectorSize);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      vectors[i][static_cast<Eigen::Index>(axis)] =
+          component(from.bytes.data() + i * from.stride + axis * size, type) / divisor;
     if (!vectors[i].allFinite())
       accessor.fail(IssueCode::base_value_not_finite, "element " + std::to_string(i));
   }

@@ -41,9 +41,10 @@ class GltfDocument {
   /// The GLB is shorter than its header states.
   bool is_truncated() const { return is_truncated_; }
 
-  /// The view `index` names; `index` is the place of the number.
+  /// The view `index` names, as it lies in its buffer; `index` is the place of the number.
   ViewBytes view_bytes(const JsonCursor& index);
-  /// float32 VEC3 values of the accessor that `index` names, all of them finite.
+  /// VEC3 values of the accessor that `index` names, all of them finite: floats, or with
+  /// KHR_mesh_quantization integers. Packed views (EXT_meshopt_compression) are unpacked.
   std::vector<Eigen::Vector3f> read_vectors(const JsonCursor& index);
   /// Values of the index accessor that `index` names.
   std::vector<std::uint32_t> read_indices(const JsonCursor& index);
@@ -52,7 +53,14 @@ class GltfDocument {
   struct Elements;
   // The first bytes of buffer `index`, at most its byteLength.
   std::span<const std::uint8_t> buffer_bytes(std::uint64_t index);
+  // `length` bytes from `offset` on of the buffer that `place` names in its member `buffer`.
+  std::span<const std::uint8_t> buffer_part(const JsonCursor& place, std::uint64_t offset,
+                                            std::uint64_t length);
+  // As view_bytes, but unpacked; lives until another view is unpacked.
+  ViewBytes unpacked_bytes(const JsonCursor& index);
   Elements elements(const JsonCursor& accessor, std::uint64_t element_size);
+  JsonCursor view(const JsonCursor& index) const;
+  void require_quantisation(const JsonCursor& accessor) const;
   std::vector<std::uint8_t> load_uri(const JsonCursor& uri) const;
 
   std::filesystem::path path_;
@@ -61,7 +69,7 @@ class GltfDocument {
   bool is_binary_ = false;
   bool is_truncated_ = false;
   std::span<const std::uint8_t> binary_chunk_;
-  std::map<std::uint64_t, std::vector<std::uint8_t>> loaded_;
+  std::map<std::uint64_t, std::vector<std::uint8_t>> loaded_, unpacked_;
 };
 
 }  // namespace zerotree::gltf

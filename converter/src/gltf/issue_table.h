@@ -32,6 +32,7 @@ enum class IssueCode {
   view_out_of_buffer,
   accessor_out_of_view,
   accessor_unsupported,
+  packing_broken,
   base_unsupported,
   base_value_not_finite,
   base_index_out_of_range,

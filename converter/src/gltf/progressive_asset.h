@@ -23,9 +23,16 @@ struct PrefixEntry {
   double geometric_error = 0;
 };
 
+/// What a node does to the coordinates of its mesh: p -> scale p + translation. A mesh on a grid of
+/// integers is made large and put in place so.
+struct Placement {
+  double scale = 1;
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+};
+
 /// A mesh with the extension ZEROTREE_mesh_progressive. Lengths are in the mesh's own unit.
 struct ProgressiveAsset {
-  /// Name of mesh and node; may be empty.
+  /// Name of the mesh; may be empty.
   std::string name;
   std::string generator = "zerotree";
   /// Connectivity of the base. The order of vertices and triangles numbers the details. Creases
@@ -33,8 +40,12 @@ struct ProgressiveAsset {
   bitstream::BaseTopology base;
   /// Control points p^0, one per base vertex, bit for bit what the payload's hash covers.
   std::vector<Eigen::Vector3f> control_points;
-  /// Unit normals of the base's limit surface, one per base vertex.
+  /// Unit normals of the base's limit surface, one per base vertex; or none, and viewers that do
+  /// not know the extension show flat triangles.
   std::vector<Eigen::Vector3f> normals;
+  /// Of the first node that shows the mesh; a rotation or different scales of the axes are left
+  /// out.
+  Placement placement;
   /// The zerotree stream bound to the base above. Shorter than `payload_length` if the file read
   /// was cut off.
   std::vector<std::uint8_t> payload;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "gltf/packed_view.h"
 #include "mesh/error.h"
 
 namespace zerotree::gltf {
@@ -53,16 +54,25 @@ void check_misplaced_everywhere(const JsonCursor& root, Issues& issues) {
     });
 }
 
-Eigen::Vector3f read_corner(const JsonCursor& corner) {
-  if (corner.value().size() != 3 || !corner.value().is_array())
-    corner.fail(IssueCode::property_type, "an array of 3 numbers is expected");
-  Eigen::Vector3f point;
+Eigen::Vector3d read_vector(const JsonCursor& vector) {
+  if (vector.value().size() != 3 || !vector.value().is_array())
+    vector.fail(IssueCode::property_type, "an array of 3 numbers is expected");
+  Eigen::Vector3d values;
   for (int k = 0; k < 3; ++k) {
-    const JsonCursor number = corner.element(static_cast<std::uint64_t>(k));
-    point[k] = static_cast<float>(number.number());
-    if (!std::isfinite(point[k])) number.fail(IssueCode::property_value, "beyond float's range");
+    const JsonCursor number = vector.element(static_cast<std::uint64_t>(k));
+    values[k] = number.number();
+    if (!std::isfinite(static_cast<float>(values[k])))
+      number.fail(IssueCode::property_value, "beyond float's range");
   }
-  return point;
+  return values;
+}
+
+Eigen::Vector3d read_vector(const JsonCursor& vector, const Eigen::Vector3d& otherwise) {
+  return vector.exists() ? read_vector(vector) : otherwise;
+}
+
+Eigen::Vector3f read_corner(const JsonCursor& corner) {
+  return read_vector(corner).cast<float>();
 }
 
 void read_bounds(const JsonCursor& bounds, ProgressiveAsset& asset) {
@@ -81,7 +91,7 @@ void read_levels(const JsonCursor& levels, ProgressiveAsset& asset) {
 }
 
 void check_attributes(const JsonCursor& attributes) {
-  attributes.value();
+  if (!attributes.exists()) return;
   if (attributes.size() != 1 || attributes.element(0).string() != "POSITION")
     attributes.fail(IssueCode::property_value, "this version carries exactly [\"POSITION\"]");
 }
@@ -114,7 +124,8 @@ void read_payload(GltfDocument& document, const JsonCursor& index, ProgressiveAs
   asset.payload_length = bytes.length;
   asset.payload.assign(bytes.available.begin(), bytes.available.end());
   const JsonCursor view = document.root().member("bufferViews").element(index.unsigned_integer());
-  if (view.member("target").exists() || view.member("byteStride").exists())
+  if (view.member("target").exists() || view.member("byteStride").exists() ||
+      packing_of(view).exists())
     view.fail(IssueCode::payload_view_invalid, "");
   const JsonCursor buffer =
       document.root().member("buffers").element(view.member("buffer").unsigned_integer());
@@ -125,10 +136,20 @@ void read_payload(GltfDocument& document, const JsonCursor& index, ProgressiveAs
               std::to_string(buffer_length - end) + " bytes of the buffer follow it");
 }
 
+// The rounding of a division must not decide about the bits that the payload's hash covers.
+void refuse_normalized(const GltfDocument& document, const JsonCursor& positions) {
+  const JsonCursor accessor =
+      document.root().member("accessors").element(positions.unsigned_integer());
+  const JsonCursor flag = accessor.member("normalized");
+  if (flag.exists() && flag.value() != false)
+    accessor.fail(IssueCode::accessor_unsupported, "positions must not be normalized");
+}
+
 // Triangles of all primitives in their order; the primitives share one array of positions.
 void read_base(GltfDocument& document, const JsonCursor& mesh, ProgressiveAsset& asset) {
   const JsonCursor primitives = mesh.member("primitives");
   const JsonCursor first = primitives.element(0).member("attributes");
+  refuse_normalized(document, first.member("POSITION"));
   asset.control_points = document.read_vectors(first.member("POSITION"));
   if (first.member("NORMAL").exists()) {
     asset.normals = document.read_vectors(first.member("NORMAL"));
@@ -156,6 +177,21 @@ void read_base(GltfDocument& document, const JsonCursor& mesh, ProgressiveAsset&
     for (std::size_t k = 0; k < indices.size(); k += 3)
       asset.base.triangles.push_back({indices[k], indices[k + 1], indices[k + 2]});
   }
+}
+
+// The first node that shows the mesh puts it in place; nodes above it are left out.
+Placement placement_of(const JsonCursor& root, std::size_t mesh) {
+  const JsonCursor nodes = root.member("nodes");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const JsonCursor node = nodes.element(i);
+    if (!node.member("mesh").exists() || node.member("mesh").unsigned_integer() != mesh) continue;
+    const Eigen::Vector3d scale = read_vector(node.member("scale"), Eigen::Vector3d::Ones());
+    const bool is_uniform = scale.x() > 0 && scale == Eigen::Vector3d::Constant(scale.x());
+    if (!is_uniform || node.member("rotation").exists() || node.member("matrix").exists())
+      return {};
+    return {scale.x(), read_vector(node.member("translation"), Eigen::Vector3d::Zero())};
+  }
+  return {};
 }
 
 void check_unknown_properties(const JsonCursor& extension, Issues& issues) {
@@ -209,6 +245,7 @@ std::optional<ProgressiveAsset> read_mesh(GltfDocument& document, std::size_t me
   step([&] { read_prefixes(extension.member("prefixes"), asset); });
   step([&] { read_payload(document, extension.member("bufferView"), asset); });
   step([&] { read_base(document, place, asset); });
+  step([&] { asset.placement = placement_of(document.root(), mesh); });
   if (!decodes) return std::nullopt;
   collect(issues, [&] {
     if (place.member("name").exists()) asset.name = place.member("name").string();

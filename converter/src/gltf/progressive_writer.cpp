@@ -1,15 +1,16 @@
 #include "gltf/progressive_writer.h"
 
 #include <algorithm>
-#include <bit>
-#include <charconv>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 
 #include "export/atomic_file.h"
+#include "gltf/base_layout.h"
 #include "gltf/glb_container.h"
+#include "gltf/packed_view.h"
 #include "gltf/percent_encoding.h"
 #include "mesh/error.h"
 
@@ -17,16 +18,6 @@ namespace zerotree::gltf {
 namespace {
 
 using nlohmann::ordered_json;
-
-static_assert(std::endian::native == std::endian::little, "buffers are written as they lie");
-static_assert(sizeof(Eigen::Vector3f) == 12);
-
-constexpr int kArrayBuffer = 34962;
-constexpr int kElementArrayBuffer = 34963;
-constexpr int kUnsignedByte = 5121;
-constexpr int kUnsignedShort = 5123;
-constexpr int kUnsignedInt = 5125;
-constexpr int kFloat = 5126;
 
 void require(bool is_met, const char* rule) {
   if (!is_met) throw Error(ExitCode::internal, std::string("progressive glTF: ") + rule);
@@ -49,8 +40,8 @@ void check_rules(const ProgressiveAsset& asset) {
   };
   require(!asset.control_points.empty() && !asset.base.triangles.empty(), "the base is empty");
   require(asset.control_points.size() == asset.base.vertex_count &&
-              asset.normals.size() == asset.base.vertex_count,
-          "a base vertex needs a control point and a normal");
+              (asset.normals.empty() || asset.normals.size() == asset.base.vertex_count),
+          "a base vertex needs a control point and, if any has one, a normal");
   require(all_finite(asset.control_points) && all_finite(asset.normals),
           "the base has a value that is not finite");
   for (const auto& triangle : asset.base.triangles)
@@ -65,19 +56,9 @@ void check_rules(const ProgressiveAsset& asset) {
           "bounds are not a box");
   require(asset.source_diagonal > 0 && std::isfinite(asset.source_diagonal),
           "the source's diagonal is not a length");
-}
-
-// A float32 with as few digits as tell it from its neighbours.
-double shortest(double value) {
-  char text[64];
-  const auto end = std::to_chars(text, text + sizeof text, static_cast<float>(value)).ptr;
-  double result = 0;
-  std::from_chars(text, end, result);
-  return result;
-}
-
-ordered_json corner(const Eigen::Vector3f& p) {
-  return {shortest(p.x()), shortest(p.y()), shortest(p.z())};
+  require(asset.placement.scale > 0 && std::isfinite(asset.placement.scale) &&
+              asset.placement.translation.allFinite(),
+          "the node's placement is not finite");
 }
 
 // An open surface is seen from both sides.
@@ -92,117 +73,56 @@ bool has_boundary(const bitstream::BaseTopology& base) {
   return false;
 }
 
-// The data of the base and the JSON lists that describe it.
-struct BaseBuffer {
-  std::vector<std::uint8_t> bytes;
-  ordered_json views = ordered_json::array();
-  ordered_json accessors = ordered_json::array();
-
-  // Appends a view of its own and an accessor over all of it; returns the accessor's index.
-  std::size_t add(const void* data, std::size_t size, int target, ordered_json accessor) {
-    bytes.resize((bytes.size() + 3) / 4 * 4);
-    views.push_back(
-        {{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", size}, {"target", target}});
-    const auto* first = static_cast<const std::uint8_t*>(data);
-    bytes.insert(bytes.end(), first, first + size);
-    accessor["bufferView"] = views.size() - 1;
-    accessors.push_back(std::move(accessor));
-    return accessors.size() - 1;
-  }
-};
-
-template <class Index>
-std::size_t add_indices(BaseBuffer& buffer, const bitstream::BaseTopology& base, int type) {
-  std::vector<Index> indices;
-  for (const auto& triangle : base.triangles)
-    for (std::uint32_t v : triangle) indices.push_back(static_cast<Index>(v));
-  return buffer.add(indices.data(), indices.size() * sizeof(Index), kElementArrayBuffer,
-                    {{"componentType", type}, {"count", indices.size()}, {"type", "SCALAR"}});
-}
-
-// In the smallest type: with 112 base vertices 32 bit would cost 2 kB, a quarter of what the
-// details of a good surface need. The largest value of each type is reserved (primitive restart).
-std::size_t add_indices(BaseBuffer& buffer, const bitstream::BaseTopology& base) {
-  if (base.vertex_count <= 0xff) return add_indices<std::uint8_t>(buffer, base, kUnsignedByte);
-  if (base.vertex_count <= 0xffff) return add_indices<std::uint16_t>(buffer, base, kUnsignedShort);
-  return add_indices<std::uint32_t>(buffer, base, kUnsignedInt);
-}
-
-std::size_t add_vectors(BaseBuffer& buffer, const std::vector<Eigen::Vector3f>& vectors,
-                        bool with_bounds) {
-  ordered_json accessor{{"componentType", kFloat}, {"count", vectors.size()}, {"type", "VEC3"}};
-  if (with_bounds) {
-    Eigen::Vector3f low = vectors.front(), high = vectors.front();
-    for (const Eigen::Vector3f& v : vectors) {
-      low = low.cwiseMin(v);
-      high = high.cwiseMax(v);
-    }
-    accessor["min"] = corner(low);
-    accessor["max"] = corner(high);
-  }
-  return buffer.add(vectors.data(), vectors.size() * sizeof(Eigen::Vector3f), kArrayBuffer,
-                    std::move(accessor));
-}
-
 ordered_json extension_json(const ProgressiveAsset& asset, std::size_t payload_view) {
   ordered_json prefixes = ordered_json::array();
   for (const PrefixEntry& entry : asset.prefixes)
-    prefixes.push_back(
-        {{"byteLength", entry.byte_length}, {"geometricError", shortest(entry.geometric_error)}});
+    prefixes.push_back({{"byteLength", entry.byte_length},
+                        {"geometricError", short_number(entry.geometric_error)}});
   return {{"bufferView", payload_view},
           {"levels", asset.levels},
-          {"attributes", ordered_json::array({"POSITION"})},
-          {"bounds", {{"min", corner(asset.bounds_min)}, {"max", corner(asset.bounds_max)}}},
-          {"sourceDiagonal", shortest(asset.source_diagonal)},
+          {"bounds",
+           {{"min", short_numbers(asset.bounds_min)}, {"max", short_numbers(asset.bounds_max)}}},
+          {"sourceDiagonal", short_number(asset.source_diagonal)},
           {"prefixes", std::move(prefixes)}};
 }
 
-// Grey and dull, as scans without colours are shown.
+// White and dull: glTF's own default is a metal, which is black where nothing shines on it.
 ordered_json scan_material(bool is_double_sided) {
-  ordered_json material{{"pbrMetallicRoughness",
-                         {{"baseColorFactor", {0.8, 0.8, 0.8, 1.0}},
-                          {"metallicFactor", 0.0},
-                          {"roughnessFactor", 0.8}}}};
+  ordered_json material{{"pbrMetallicRoughness", {{"metallicFactor", 0}}}};
   if (is_double_sided) material["doubleSided"] = true;
   return material;
 }
 
-struct GltfParts {
-  ordered_json json;
-  /// Data of the first buffer without the payload; its length is a multiple of 4.
-  std::vector<std::uint8_t> base;
-};
-
-// `payload_buffer` is 0 if the payload follows the base in the first buffer, else 1. The list of
-// buffers is left to the caller, who knows where they lie.
-GltfParts gltf_parts(const ProgressiveAsset& asset, int payload_buffer) {
-  check_rules(asset);
-  BaseBuffer base;
-  ordered_json primitive;
-  primitive["indices"] = add_indices(base, asset.base);
-  primitive["attributes"]["POSITION"] = add_vectors(base, asset.control_points, true);
-  primitive["attributes"]["NORMAL"] = add_vectors(base, asset.normals, false);
-  primitive["material"] = 0;
-  base.views.push_back({{"buffer", payload_buffer},
-                        {"byteOffset", payload_buffer == 0 ? base.bytes.size() : 0},
-                        {"byteLength", asset.payload.size()}});
-  ordered_json mesh{{"primitives", ordered_json::array({std::move(primitive)})}};
-  mesh["extensions"][kExtensionName] = extension_json(asset, base.views.size() - 1);
+ordered_json node_json(const Placement& placement) {
   ordered_json node{{"mesh", 0}};
-  if (!asset.name.empty()) mesh["name"] = node["name"] = asset.name;
+  const Eigen::Vector3d& t = placement.translation;
+  if (placement.scale != 1) node["scale"] = {placement.scale, placement.scale, placement.scale};
+  if (!t.isZero(0)) node["translation"] = {t.x(), t.y(), t.z()};
+  return node;
+}
 
-  ordered_json json;
-  json["asset"]["version"] = "2.0";
-  if (!asset.generator.empty()) json["asset"]["generator"] = asset.generator;
+ordered_json mesh_json(const ProgressiveAsset& asset, std::size_t payload_view) {
+  ordered_json primitive;
+  primitive["attributes"]["POSITION"] = 1;
+  if (!asset.normals.empty()) primitive["attributes"]["NORMAL"] = 2;
+  primitive["indices"] = 0;
+  primitive["material"] = 0;
+  ordered_json mesh;
+  if (!asset.name.empty()) mesh["name"] = asset.name;
+  mesh["primitives"] = ordered_json::array({std::move(primitive)});
+  mesh["extensions"][kExtensionName] = extension_json(asset, payload_view);
+  return mesh;
+}
+
+void list_extensions(const BaseForm& form, ordered_json& json) {
   json["extensionsUsed"] = {kExtensionName};
-  json["scene"] = 0;
-  json["scenes"] = ordered_json::array({{{"nodes", {0}}}});
-  json["nodes"] = ordered_json::array({std::move(node)});
-  json["meshes"] = ordered_json::array({std::move(mesh)});
-  json["materials"] = ordered_json::array({scan_material(has_boundary(asset.base))});
-  json["accessors"] = std::move(base.accessors);
-  json["bufferViews"] = std::move(base.views);
-  return {std::move(json), std::move(base.bytes)};
+  // There is no second, plain form of the data for readers without these.
+  for (const auto& [is_used, name] : {std::pair{form.quantised, kQuantisationExtension},
+                                      std::pair{form.packs(), kPackingExtension}})
+    if (is_used) {
+      json["extensionsUsed"].push_back(name);
+      json["extensionsRequired"].push_back(name);
+    }
 }
 
 // Names need not be UTF-8 on disk, JSON must be.
@@ -210,8 +130,95 @@ std::string dump(const ordered_json& json, int indent = -1) {
   return json.dump(indent, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-ordered_json external_buffer(const std::filesystem::path& file, std::size_t length) {
-  return {{"uri", percent_encoded(file.filename().string())}, {"byteLength", length}};
+// Files of buffers. Without a name, the base is in the GLB, and the payload behind the base.
+struct BufferFiles {
+  std::filesystem::path base, payload;
+
+  bool is_split() const { return !payload.empty(); }
+};
+
+ordered_json buffer_json(const std::filesystem::path& file, std::size_t length) {
+  ordered_json buffer;
+  if (!file.empty()) buffer["uri"] = percent_encoded(file.filename().string());
+  buffer["byteLength"] = length;
+  return buffer;
+}
+
+// The last one has no data: packed views name it as the place of what they unpack to.
+ordered_json buffers_json(const BufferFiles& files, const BaseLayout& base, std::size_t payload) {
+  ordered_json buffers = ordered_json::array();
+  if (files.is_split())
+    buffers = {buffer_json(files.base, base.bytes.size()), buffer_json(files.payload, payload)};
+  else
+    buffers.push_back(buffer_json({}, base.bytes.size() + payload));
+  if (base.unpacked_length > 0) {
+    buffers.push_back(buffer_json({}, base.unpacked_length));
+    buffers.back()["extensions"][kPackingExtension]["fallback"] = true;
+  }
+  return buffers;
+}
+
+struct GltfParts {
+  ordered_json json;
+  /// Data of the first buffer without the payload.
+  std::vector<std::uint8_t> base;
+};
+
+GltfParts gltf_parts(const ProgressiveAsset& asset, const BaseForm& form,
+                     const BufferFiles& files) {
+  const bool is_split = files.is_split();
+  BaseLayout base = lay_out_base(asset, form, is_split ? 2 : 1);
+  // Between the two, so that the payload ends the file, whose length is a multiple of 4.
+  if (!is_split)
+    while ((base.bytes.size() + asset.payload.size()) % 4 != 0) base.bytes.push_back(0);
+  ordered_json payload_view{{"buffer", is_split ? 1 : 0}};
+  if (!is_split) payload_view["byteOffset"] = base.bytes.size();
+  payload_view["byteLength"] = asset.payload.size();
+  base.views.push_back(std::move(payload_view));
+
+  ordered_json json;
+  json["asset"]["version"] = "2.0";
+  if (!asset.generator.empty()) json["asset"]["generator"] = asset.generator;
+  list_extensions(form, json);
+  json["scene"] = 0;
+  json["scenes"] = ordered_json::array({{{"nodes", {0}}}});
+  json["nodes"] = ordered_json::array({node_json(asset.placement)});
+  json["meshes"] = ordered_json::array({mesh_json(asset, base.views.size() - 1)});
+  json["materials"] = ordered_json::array({scan_material(has_boundary(asset.base))});
+  json["accessors"] = std::move(base.accessors);
+  json["bufferViews"] = std::move(base.views);
+  json["buffers"] = buffers_json(files, base, asset.payload.size());
+  return {std::move(json), std::move(base.bytes)};
+}
+
+// Every form the options and the asset allow, the plain one first.
+std::vector<BaseForm> allowed_forms(const ProgressiveAsset& asset, const WriteOptions& options) {
+  std::vector<BaseForm> forms;
+  for (const bool quantised : {false, true})
+    for (const bool packs_vertices : {false, true})
+      for (const bool packs_triangles : {false, true})
+        forms.push_back({quantised, packs_vertices, packs_triangles});
+  const bool may_quantise = options.compress_base && fits_quantisation(asset);
+  std::erase_if(forms, [&](const BaseForm& form) {
+    return (form.packs() && !options.compress_base) || (form.quantised && !may_quantise);
+  });
+  return forms;
+}
+
+// The parts of the smallest file among the forms allowed.
+GltfParts smallest_parts(const ProgressiveAsset& asset, const WriteOptions& options,
+                         const BufferFiles& files) {
+  check_rules(asset);
+  GltfParts smallest;
+  std::size_t smallest_size = 0;
+  for (const BaseForm& form : allowed_forms(asset, options)) {
+    GltfParts parts = gltf_parts(asset, form, files);
+    const std::size_t size = dump(parts.json).size() + parts.base.size();
+    if (smallest_size != 0 && size >= smallest_size) continue;
+    smallest = std::move(parts);
+    smallest_size = size;
+  }
+  return smallest;
 }
 
 void append(std::vector<std::uint8_t>& bytes, std::span<const std::uint8_t> more) {
@@ -235,38 +242,36 @@ std::vector<PrefixEntry> monotone_prefixes(std::vector<PrefixEntry> measured) {
   return measured;
 }
 
-std::vector<std::uint8_t> glb_bytes(const ProgressiveAsset& asset) {
-  GltfParts parts = gltf_parts(asset, 0);
-  const std::size_t length = parts.base.size() + asset.payload.size();
-  parts.json["buffers"] = ordered_json::array({{{"byteLength", length}}});
-  std::vector<std::uint8_t> bytes = glb_head(dump(parts.json), length);
+std::vector<std::uint8_t> glb_bytes(const ProgressiveAsset& asset, const WriteOptions& options) {
+  const GltfParts parts = smallest_parts(asset, options, {});
+  std::vector<std::uint8_t> bytes =
+      glb_head(dump(parts.json), parts.base.size() + asset.payload.size());
   append(bytes, parts.base);
   append(bytes, asset.payload);
-  bytes.resize((bytes.size() + 3) / 4 * 4);
   return bytes;
 }
 
-void write_glb(const std::filesystem::path& path, const ProgressiveAsset& asset) {
-  exporter::write_file_atomically(path, glb_bytes(asset));
+void write_glb(const std::filesystem::path& path, const ProgressiveAsset& asset,
+               const WriteOptions& options) {
+  exporter::write_file_atomically(path, glb_bytes(asset, options));
 }
 
-void write_split(const std::filesystem::path& path, const ProgressiveAsset& asset) {
+void write_split(const std::filesystem::path& path, const ProgressiveAsset& asset,
+                 const WriteOptions& options) {
   const bool is_binary = path.extension() == ".glb";
   if (!is_binary && path.extension() != ".gltf")
     throw Error(ExitCode::usage, path.string() + ": name a .glb or .gltf file to write");
   const std::filesystem::path payload_path =
       std::filesystem::path(path).replace_extension(".zt.bin");
   const std::filesystem::path base_path = std::filesystem::path(path).replace_extension(".bin");
-  GltfParts parts = gltf_parts(asset, 1);
-  parts.json["buffers"] =
-      ordered_json::array({is_binary ? ordered_json{{"byteLength", parts.base.size()}}
-                                     : external_buffer(base_path, parts.base.size()),
-                           external_buffer(payload_path, asset.payload.size())});
+  const BufferFiles files{is_binary ? std::filesystem::path() : base_path, payload_path};
+  const GltfParts parts = smallest_parts(asset, options, files);
 
   std::vector<std::uint8_t> head;
   if (is_binary) {
     head = glb_head(dump(parts.json), parts.base.size());
     append(head, parts.base);
+    head.resize((head.size() + 3) / 4 * 4);
   } else {
     const std::string text = dump(parts.json, 2) + "\n";
     head.assign(text.begin(), text.end());

@@ -78,6 +78,55 @@ TEST(Command, ConvertsAndDecodesEveryOutput) {
   EXPECT_EQ(run_zerotree({"info", folder / "out.zt"}).exit_code, 0);
 }
 
+TEST(Command, CompressesTheBase) {
+  const TemporaryFolder folder;
+  write_off(folder / "in.off", bumpy_sphere());
+  const auto convert = [&](const std::string& name, const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"convert",     folder / "in.off", "-o",
+                                       folder / name, "--base-vertices", "80"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const CommandResult result = run_zerotree(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return std::filesystem::file_size(folder / name);
+  };
+  const auto plain = convert("plain.glb", {});
+  const auto with_normals = convert("normals.glb", {"--base-normals"});
+  EXPECT_GT(with_normals, plain);
+  EXPECT_LT(convert("small.glb", {"--compress-base"}), plain);
+  EXPECT_LT(convert("both.glb", {"--compress-base", "--base-normals"}), with_normals);
+  for (const std::string name : {"normals.glb", "small.glb", "both.glb"}) {
+    EXPECT_EQ(run_zerotree({"validate", folder / name}).exit_code, 0) << name;
+    EXPECT_EQ(run_zerotree({"info", folder / name}).exit_code, 0) << name;
+    for (const std::string& file : {std::string("plain.glb"), name})
+      ASSERT_EQ(run_zerotree({"decode", folder / file, "-o", folder / (file + ".ply")}).exit_code,
+                0);
+    // The decoded surface lies where the scan does, not on the grid; the base opens as a mesh.
+    EXPECT_LT(compared_error(folder / "plain.glb.ply", folder / (name + ".ply")), 2e-5) << name;
+    EXPECT_LT(compared_error(folder / "plain.glb", folder / name), 2e-5) << name;
+  }
+  EXPECT_EQ(
+      run_zerotree({"decode", folder / "small.glb", "-o", folder / "a.ply", "--error", "50mm"})
+          .exit_code,
+      0);
+}
+
+// Rounding the table's errors must not push the last one beyond what was asked for.
+TEST(Command, StatesNoMoreThanTheErrorAskedFor) {
+  const TemporaryFolder folder;
+  write_off(folder / "in.off", bumpy_sphere());
+  for (const std::string compress : {"--threads=1", "--compress-base"}) {
+    ASSERT_EQ(run_zerotree({"convert", folder / "in.off", "-o", folder / "a.gltf", "--split",
+                            "--max-error", "2e-3", compress})
+                  .exit_code,
+              0);
+    const auto text = read_bytes(folder / "a.gltf");
+    const nlohmann::json gltf = nlohmann::json::parse(text.begin(), text.end());
+    const nlohmann::json& extension = gltf["meshes"][0]["extensions"]["ZEROTREE_mesh_progressive"];
+    const double error = extension["prefixes"].back()["geometricError"];
+    EXPECT_LE(error / extension["sourceDiagonal"].get<double>(), 2e-3 * (1 + 1e-6));
+  }
+}
+
 TEST(Command, ReportTellsWhatTheFilesHold) {
   const TemporaryFolder folder;
   write_off(folder / "in.off", bumpy_sphere());

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
 
+#include "asset_equality.h"
 #include "gltf/gltf_document.h"
 #include "gltf/progressive_reader.h"
 #include "gltf/progressive_writer.h"
@@ -8,29 +9,11 @@
 #include "sample_assets.h"
 
 namespace zerotree::gltf {
+
 namespace {
 
+using test::expect_equal;
 using test::TemporaryFolder;
-
-void expect_equal(const ProgressiveAsset& a, const ProgressiveAsset& b) {
-  EXPECT_EQ(a.name, b.name);
-  EXPECT_EQ(a.generator, b.generator);
-  EXPECT_EQ(a.base.vertex_count, b.base.vertex_count);
-  EXPECT_EQ(a.base.triangles, b.base.triangles);
-  EXPECT_EQ(a.control_points, b.control_points);
-  EXPECT_EQ(a.normals, b.normals);
-  EXPECT_EQ(a.payload, b.payload);
-  EXPECT_EQ(a.payload_length, b.payload_length);
-  EXPECT_EQ(a.levels, b.levels);
-  EXPECT_EQ(a.bounds_min, b.bounds_min);
-  EXPECT_EQ(a.bounds_max, b.bounds_max);
-  EXPECT_EQ(a.source_diagonal, b.source_diagonal);
-  ASSERT_EQ(a.prefixes.size(), b.prefixes.size());
-  for (std::size_t i = 0; i < a.prefixes.size(); ++i) {
-    EXPECT_EQ(a.prefixes[i].byte_length, b.prefixes[i].byte_length);
-    EXPECT_EQ(a.prefixes[i].geometric_error, b.prefixes[i].geometric_error);
-  }
-}
 
 class EachShape : public testing::TestWithParam<test::Shape> {};
 
@@ -85,6 +68,25 @@ TEST(Writer, IndicesHaveTheSmallestType) {
   EXPECT_EQ(index_type_of(test::grid(4, 50)), 5121);     // 255 vertices
   EXPECT_EQ(index_type_of(test::grid(7, 31)), 5123);     // 256 vertices
   EXPECT_EQ(index_type_of(test::grid(255, 255)), 5125);  // 65536 vertices
+}
+
+TEST(Writer, NormalsAreOptional) {
+  const TemporaryFolder folder;
+  ProgressiveAsset asset = test::sample_asset(test::base_shapes()[0], 100);
+  asset.normals.clear();
+  write_glb(folder / "a.glb", asset);
+  expect_equal(read_progressive(folder / "a.glb"), asset);
+}
+
+// Beside payload, positions and indices: about what a base of 112 vertices takes for one of them.
+TEST(Writer, SpendsFewBytesOnTheRest) {
+  for (const test::Shape& shape : test::base_shapes()) {
+    ProgressiveAsset asset = test::sample_asset(shape, 1000);
+    asset.normals.clear();
+    const std::size_t data =
+        1000 + 12 * asset.control_points.size() + 3 * asset.base.triangles.size();
+    EXPECT_LE(glb_bytes(asset).size(), data + 1100) << shape.name;
+  }
 }
 
 TEST(Writer, LargeBasesRoundTrip) {

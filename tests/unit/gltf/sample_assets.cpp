@@ -5,8 +5,11 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <stdexcept>
+
+#include "bitstream/base_traversal.h"
 
 namespace zerotree::test {
 namespace {
@@ -23,6 +26,17 @@ std::vector<Eigen::Vector3f> vertex_normals(const TriangleMesh& mesh) {
 }
 
 }  // namespace
+
+TriangleMesh in_canonical_order(const TriangleMesh& mesh) {
+  bitstream::BaseTopology base;
+  base.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
+  base.triangles = mesh.triangles;
+  const bitstream::BaseOrder order = bitstream::canonical_base_order(base);
+  TriangleMesh ordered;
+  for (std::uint32_t old : order.vertices) ordered.positions.push_back(mesh.positions[old]);
+  ordered.triangles = bitstream::reorder(base, order).triangles;
+  return ordered;
+}
 
 gltf::ProgressiveAsset sample_asset(const Shape& shape, std::size_t payload_size) {
   gltf::ProgressiveAsset asset;
@@ -42,6 +56,19 @@ gltf::ProgressiveAsset sample_asset(const Shape& shape, std::size_t payload_size
   asset.levels = 3;
   asset.prefixes = {{0, 0.25}, {payload_size / 2, 0.125}, {payload_size, 0.0625f}};
   asset.source_diagonal = 3.25;
+  return asset;
+}
+
+gltf::ProgressiveAsset grid_asset(const Shape& shape, std::size_t payload_size) {
+  gltf::ProgressiveAsset asset = sample_asset(shape, payload_size);
+  const Eigen::Vector3f low = asset.bounds_min;
+  const float step = std::ldexp(1.0f, -13);  // the shapes are less than 8 long
+  for (Eigen::Vector3f& p : asset.control_points) p = ((p - low) / step).array().round();
+  for (Eigen::Vector3f& n : asset.normals) n = (127 * n).array().round() / 127;
+  asset.placement = {step, low.cast<double>()};
+  asset.bounds_max = (asset.bounds_max - low) / step;
+  asset.bounds_min.setZero();
+  asset.source_diagonal /= step;
   return asset;
 }
 

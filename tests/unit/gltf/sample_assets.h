@@ -10,8 +10,15 @@
 
 namespace zerotree::test {
 
+/// `mesh` with vertices, triangles and first corners in the order the converter gives a base.
+TriangleMesh in_canonical_order(const TriangleMesh& mesh);
+
 /// An asset over the base mesh `shape`; its payload is `payload_size` arbitrary bytes.
 gltf::ProgressiveAsset sample_asset(const Shape& shape, std::size_t payload_size);
+
+/// The same with control points on a grid of 16-bit integers, which a node puts back in place, and
+/// with normals that bytes hold.
+gltf::ProgressiveAsset grid_asset(const Shape& shape, std::size_t payload_size);
 
 /// An empty folder that is removed with all it holds at the end.
 class TemporaryFolder {

@@ -1,6 +1,7 @@
 #include "encoded_assets.h"
 
 #include <cmath>
+#include <utility>
 
 #include "bitstream/base_edges.h"
 #include "bitstream/base_traversal.h"
@@ -51,8 +52,11 @@ encode::EncodeOptions options(bool embed_base, double scale) {
 
 }  // namespace
 
-gltf::ProgressiveAsset encoded_asset(const Shape& shape, double detail_scale) {
-  gltf::ProgressiveAsset asset = sample_asset(shape, 1);
+namespace {
+
+// `asset` with the payload, and all that depends on it, that its own base and `shape`'s tags give.
+gltf::ProgressiveAsset with_payload(gltf::ProgressiveAsset asset, const Shape& shape,
+                                    double detail_scale, float margin) {
   const bitstream::BaseTopology base = topology_of(shape);
   // The stream is bound to the positions as the accessor holds them.
   std::vector<Eigen::Vector3d> control_points;
@@ -62,13 +66,25 @@ gltf::ProgressiveAsset encoded_asset(const Shape& shape, double detail_scale) {
                       .bytes;
   asset.payload_length = asset.payload.size();
   asset.levels = kLevels;
-  asset.bounds_min.array() -= 0.25f;
-  asset.bounds_max.array() += 0.25f;
+  asset.bounds_min.array() -= margin;
+  asset.bounds_max.array() += margin;
   asset.prefixes.clear();
   for (std::uint64_t part = 0; part <= 4; ++part)
     asset.prefixes.push_back(
         {asset.payload_length * part / 4, 0.5 / static_cast<double>(part + 1)});
   return asset;
+}
+
+}  // namespace
+
+gltf::ProgressiveAsset encoded_asset(const Shape& shape, double detail_scale) {
+  return with_payload(sample_asset(shape, 1), shape, detail_scale, 0.25f);
+}
+
+gltf::ProgressiveAsset encoded_grid_asset(const Shape& shape) {
+  gltf::ProgressiveAsset asset = grid_asset(shape, 1);
+  const double unit = 1 / asset.placement.scale;
+  return with_payload(std::move(asset), shape, unit, static_cast<float>(0.25 * unit));
 }
 
 std::vector<std::uint8_t> encoded_stream(const Shape& shape) {

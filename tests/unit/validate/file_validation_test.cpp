@@ -58,6 +58,14 @@ TEST_P(EachShape, RightSplitFilesHaveNoIssue) {
   EXPECT_EQ(report.mime_type, "model/gltf+json");
 }
 
+TEST_P(EachShape, RightCompressedFilesHaveNoIssue) {
+  const gltf::ProgressiveAsset asset = test::encoded_grid_asset(GetParam());
+  const ValidationReport report = validate_bytes(gltf::glb_bytes(asset, {.compress_base = true}));
+  EXPECT_EQ(codes(report), std::vector<std::string>{});
+  ASSERT_EQ(report.meshes.size(), 1u);
+  EXPECT_EQ(report.meshes[0].base_vertices, asset.base.vertex_count);
+}
+
 TEST_P(EachShape, RightStreamsHaveNoIssue) {
   const auto stream = test::encoded_stream(GetParam());
   const ValidationReport report = validate_bytes(stream, "a.zt");
@@ -110,18 +118,18 @@ const std::vector<BrokenVariant>& broken_variants() {
        [](json& r) { extension(r)["prefixes"][3]["geometricError"] = 9.5; }},
       {"PREFIX_END", "/prefixes", [](json& r) { extension(r)["prefixes"].erase(4); }},
       {"BUFFER_UNREADABLE", "/buffers/0/uri", [](json& r) { r["buffers"][0]["uri"] = "gone.bin"; }},
-      {"VIEW_OUT_OF_BUFFER", "/bufferViews/3",
-       [](json& r) { r["bufferViews"][3]["byteLength"] = 1 << 20; }},
+      {"VIEW_OUT_OF_BUFFER", "/bufferViews/2",
+       [](json& r) { r["bufferViews"][2]["byteLength"] = 1 << 20; }},
       {"ACCESSOR_OUT_OF_VIEW", "/accessors/1", [](json& r) { r["accessors"][1]["count"] = 1000; }},
       {"ACCESSOR_UNSUPPORTED", "/accessors/1", [](json& r) { r["accessors"][1]["type"] = "VEC2"; }},
       {"BASE_UNSUPPORTED", "/meshes/0/primitives/0/mode",
        [](json& r) { r["meshes"][0]["primitives"][0]["mode"] = 5; }},
       {"BASE_INDEX_OUT_OF_RANGE", "/meshes/0/primitives/0/indices",
        [](json& r) { r["accessors"][1]["count"] = 3; r["accessors"][2]["count"] = 3; }},
-      {"PAYLOAD_VIEW_INVALID", "/bufferViews/3",
-       [](json& r) { r["bufferViews"][3]["target"] = 34962; }},
-      {"PAYLOAD_NOT_LAST", "/bufferViews/3",
-       [](json& r) { r["bufferViews"][3]["byteLength"] = 8; }},
+      {"PAYLOAD_VIEW_INVALID", "/bufferViews/2",
+       [](json& r) { r["bufferViews"][2]["target"] = 34962; }},
+      {"PAYLOAD_NOT_LAST", "/bufferViews/2",
+       [](json& r) { r["bufferViews"][2]["byteLength"] = 8; }},
       {"PAYLOAD_LEVELS_MISMATCH", "/levels", [](json& r) { extension(r)["levels"] = 1; }},
       {"PAYLOAD_TOO_LARGE", "/levels", [](json& r) { extension(r)["levels"] = 14; }},
       {"SURFACE_OUT_OF_BOUNDS", "/prefixes/4",
@@ -150,6 +158,26 @@ TEST(BrokenFile, AnotherBaseIsNamed) {
   asset.control_points[5].x() += 0.001f;
   const ValidationReport report = validate_bytes(gltf::glb_bytes(asset));
   EXPECT_EQ(codes(report), std::vector<std::string>{"PAYLOAD_BASE_MISMATCH"});
+}
+
+// The packing extension's usual encoder turns triangles; their details belong to other corners
+// then.
+TEST(BrokenFile, ATurnedTriangleIsNamed) {
+  gltf::ProgressiveAsset asset =
+      test::encoded_grid_asset({"sphere", test::in_canonical_order(test::sphere(2)), {}, {}});
+  auto& triangle = asset.base.triangles[3];
+  std::rotate(triangle.begin(), triangle.begin() + 1, triangle.end());
+  const auto bytes = gltf::glb_bytes(asset, {.compress_base = true});
+  EXPECT_EQ(codes(validate_bytes(bytes)), std::vector<std::string>{"PAYLOAD_BASE_MISMATCH"});
+}
+
+TEST(BrokenFile, BrokenPackingIsNamed) {
+  const auto asset =
+      test::encoded_grid_asset({"sphere", test::in_canonical_order(test::sphere(2)), {}, {}});
+  auto bytes = gltf::glb_bytes(asset, {.compress_base = true});
+  const std::size_t binary = bytes.size() - gltf::split_glb(bytes).binary.size();
+  bytes[binary] ^= 0x80;  // the header of the vertices' packed data
+  EXPECT_EQ(codes(validate_bytes(bytes)), std::vector<std::string>{"PACKING_BROKEN"});
 }
 
 TEST(BrokenFile, ABrokenPayloadIsNamed) {
