@@ -56,7 +56,7 @@ double asked_error(const ConvertOptions& options, const report::ConvertReport& r
 fit::FitOptions fit_options_for(const ConvertOptions& options,
                                 const report::ConvertReport& report) {
   constexpr double most = 1.0;  // at which the details of the finest level count as distances
-  fit::FitOptions fit_options; if (getenv("ZT_SMOOTH")) fit_options.smoothness.normal = atof(getenv("ZT_SMOOTH")); if (getenv("ZT_SMT")) fit_options.smoothness.tangential = atof(getenv("ZT_SMT"));
+  fit::FitOptions fit_options;
   const double asked = asked_error(options, report);
   if (asked <= report.discretisation_error || report.discretisation_error <= 0) return fit_options;
   const double ratio = asked / report.discretisation_error;

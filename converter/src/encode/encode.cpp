@@ -21,11 +21,9 @@ namespace {
 constexpr int kFewestInitialPlanes = 4;
 
 // Length of a base coordinate's integer over the step that its basis norm asks for. Longer, because
-// a control point's basis function is narrower than the norms' table goes on (0.45 against 0.52
-// times 2^levels) and two thirds of an error are tangential, where details have longer steps too.
-// Measured on four scans: 1 costs 0.25 dB more at 1/4 bit per vertex and 0.03 dB more at 1, 2 costs
-// 0.03 dB more at all rates.
-constexpr double kBaseUnit = 1.4;
+// two thirds of a control point's error are tangential, where details have longer steps too.
+// Measured on four scans: half of it costs 0.1 dB more at 1/4 bit per vertex.
+constexpr double kBaseUnit = 2.8;
 
 void check_options(const EncodeOptions& options) {
   const float step = storable_step(options.finest_step);
@@ -95,7 +93,7 @@ EncodedStream encode(const surface::SubdivisionHierarchy& hierarchy,
     const double norm = double{surface::basis_norm(levels)};
     QuantisedBase quantised =
         quantise_base(decomposition.base_control_points, options.base_position_bits,
-                      (getenv("ZT_BU") ? atof(getenv("ZT_BU")) : kBaseUnit) * double{header.finest_step} / norm, header.finest_step);
+                      kBaseUnit * double{header.finest_step} / norm, header.finest_step);
     header.positions = quantised.quantisation;
     content.positions = std::move(quantised.integers);
     result.base_positions = std::move(quantised.positions);
@@ -111,7 +109,7 @@ EncodedStream encode(const surface::SubdivisionHierarchy& hierarchy,
   if (options.embed_base) {
     const int bits = header.positions.bits;
     header.positions.initial_planes =
-        std::min(bits, std::max(kFewestInitialPlanes, bits - count_planes(content.coefficients) + (getenv("ZT_INIT") ? atoi(getenv("ZT_INIT")) : 0)));
+        std::min(bits, std::max(kFewestInitialPlanes, bits - count_planes(content.coefficients)));
   }
   StreamBytes stream = encode_stream(content);
   result.bytes = std::move(stream.bytes);

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
-#include <sstream>
-#include <vector>
 
 #include "surface/edge_frames.h"
 
@@ -43,8 +40,6 @@ float area_weight(double area, double mean_area) {
 
 float detail_unit(const Dequantisation& dequantisation, int levels, int level,
                   bitstream::Channel channel) {
-  static const std::vector<float> tr = [] { std::vector<float> v; if (const char* e = std::getenv("ZT_TR")) { std::istringstream in(e); float x; while (in >> x) v.push_back(x); } return v; }();
-  if (channel != bitstream::kNormal && !tr.empty()) return dequantisation.step * tr[std::min<std::size_t>(tr.size() - 1, (std::size_t)level)] / basis_norm(levels - 1 - level);
   const float step = channel == bitstream::kNormal
                          ? dequantisation.step
                          : dequantisation.step * dequantisation.tangent_ratio;

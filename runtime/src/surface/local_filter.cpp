@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
 namespace zerotree::surface {
 
@@ -12,6 +11,7 @@ struct EndWeights {
   float dip, lift;
 };
 constexpr EndWeights kSurface = {0.30f, 0.05f};
+// A curve's coarse points weigh 2 in all, so this has zero mean too: 1 - 2 * 0.30 - 2 * 0.10 * 2.
 constexpr EndWeights kCurve = {0.30f, 0.10f};
 constexpr EndWeights kUntouched = {0.0f, 0.0f};
 
@@ -20,9 +20,8 @@ EndWeights weights_at(const RefinerLevel& level, int vertex, bool edge_is_sharp)
   const Rule rule = level.GetVertexRule(vertex);
   if (rule == Rule::RULE_CORNER) return kUntouched;
   if (rule == Rule::RULE_CREASE) return edge_is_sharp ? kCurve : kUntouched;
-  static const float sd = getenv("ZT_DIP") ? (float)atof(getenv("ZT_DIP")) : kSurface.dip, sl = getenv("ZT_LIFT") ? (float)atof(getenv("ZT_LIFT")) : kSurface.lift;
   const float scale = 6.0f / static_cast<float>(level.GetVertexEdges(vertex).size());
-  return {sd * scale, sl * scale};
+  return {kSurface.dip * scale, kSurface.lift * scale};
 }
 
 }  // namespace
