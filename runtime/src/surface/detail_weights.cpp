@@ -10,6 +10,7 @@ namespace zerotree::surface {
 
 namespace {
 
+constexpr double kMeanShare = 0.2;
 constexpr double kLargestWeight = 16.0;
 
 Vector3 difference(std::span<const float> positions, std::uint32_t to, std::uint32_t from) {
@@ -33,9 +34,8 @@ double mean_face_area(const bitstream::BaseTopology& topology, std::span<const f
 }
 
 float area_weight(double area, double mean_area) {
-  const double weight = std::sqrt(area / mean_area);
-  if (std::isnan(weight)) return 1.0f;
-  return static_cast<float>(std::clamp(weight, 1.0 / kLargestWeight, kLargestWeight));
+  const double weight = std::sqrt((1.0 - kMeanShare) * area / mean_area + kMeanShare);
+  return std::isnan(weight) ? 1.0f : static_cast<float>(std::min(weight, kLargestWeight));
 }
 
 float detail_unit(const Dequantisation& dequantisation, int levels, int level,
