@@ -70,12 +70,14 @@ RemeshedSurface remesh_surface(const TriangleMesh& mesh, const ConvertOptions& o
   domain::DomainOptions domain_options;
   domain_options.base_vertices = static_cast<std::uint32_t>(options.base_vertices);
   domain_options.crease_angle_degrees = options.crease_angle_degrees;
+  const domain::AccuracyGoal goal{asked_error(options, report), report.discretisation_error};
+  domain_options.goal = goal;
   domain::Domain domain =
       clock.run("domain", [&] { return domain::build_domain(mesh, domain_options, progress); });
 
   remesh::RemeshOptions remesh_options;
   remesh_options.levels = options.levels;
-  remesh_options.goal = {asked_error(options, report), report.discretisation_error};
+  remesh_options.goal = goal;
   const remesh::RemeshResult remeshed =
       clock.run("remesh", [&] { return remesh::remesh(domain, remesh_options, progress); });
   note_remesh(remeshed, report);

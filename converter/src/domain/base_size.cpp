@@ -40,6 +40,8 @@ constexpr double kErrorPerLevel = 3;
 // Quantisation takes its part of the error that is asked for.
 constexpr double kShareOfRemesh = 0.6;
 constexpr int kLeastReducedLevels = 2;
+// From this error on, in units of the discretisation error, a smaller base makes smaller files.
+constexpr double kCoarseError = 1.75;
 
 std::vector<std::uint32_t> component_of_faces(const TriangleTopology& topology,
                                               std::uint32_t& count) {
@@ -161,7 +163,7 @@ std::uint32_t fixed_base_size(const std::vector<ComponentCounts>& components) {
 }
 
 std::uint32_t automatic_base_size(const std::vector<ComponentCounts>& components,
-                                  double complexity) {
+                                  double complexity, const AccuracyGoal& goal) {
   DomainReport topology;
   sum_topology(components, topology);
   std::uint32_t vertices = 0;
@@ -173,6 +175,8 @@ std::uint32_t automatic_base_size(const std::vector<ComponentCounts>& components
   const double fixed = fixed_base_size(components);
   const double needed =
       fixed + std::min(shape_base_size(complexity), known_base_size(vertices, fixed));
+  if (goal.discretisation_error > 0 && goal.max_error > kCoarseError * goal.discretisation_error)
+    return std::min(vertices, static_cast<std::uint32_t>(needed));
   double base_faces = finest_face_limit(faces) / 4;
   double allowed = vertices_for_faces(topology, base_faces);
   for (int levels = 2; levels <= kMaxLevels; ++levels) {
@@ -197,7 +201,7 @@ int automatic_levels(std::size_t base_faces, std::size_t input_faces, const Accu
   int levels = 1;
   for (; levels < kMaxLevels && (faces < kLeastFaces || 4 * faces <= limit); ++levels) faces *= 4;
   if (goal.max_error <= 0 || goal.discretisation_error <= 0) return levels;
-  if (goal.max_error < goal.discretisation_error / 2) return std::min(levels + 1, kMaxLevels);
+  if (goal.max_error < goal.discretisation_error) return std::min(levels + 1, kMaxLevels);
   double coarser = kErrorPerLevel * kErrorOfFullDepth * goal.discretisation_error;
   for (; levels > kLeastReducedLevels && coarser <= kShareOfRemesh * goal.max_error; --levels)
     coarser *= kErrorPerLevel;

@@ -69,7 +69,8 @@ Domain build_domain(const TriangleMesh& mesh, const DomainOptions& options,
   domain.report.target_base_vertices =
       options.base_vertices > 0
           ? options.base_vertices
-          : automatic_base_size(components, shape_complexity(domain.mesh, domain.topology));
+          : automatic_base_size(components, shape_complexity(domain.mesh, domain.topology),
+                                options.goal);
   decimate_to_base(options, progress, domain);
   return domain;
 }

@@ -11,6 +11,12 @@
 
 namespace zerotree::domain {
 
+/// What the surface is wanted for. Errors are relative to the diagonal; 0: not known.
+struct AccuracyGoal {
+  double max_error = 0;
+  double discretisation_error = 0;
+};
+
 struct DomainOptions {
   /// Wanted vertices of the base mesh; 0: from the input's density, shape, features and topology
   /// (base_size.h).
@@ -21,6 +27,8 @@ struct DomainOptions {
   /// degrees, half a diagonal of them together and one 25th of it on average between their ends,
   /// junctions and sharp turns. A closed rim in a plane may be shorter.
   double crease_angle_degrees = 0;
+  /// What the surface is wanted for; matters where the size of the base is left open.
+  AccuracyGoal goal = {};
   /// Vertices that must stay in the base mesh, ascending (the remesher's answer to a place where
   /// the undo of a collapse has no room).
   std::vector<std::uint32_t> pinned_vertices;

@@ -65,7 +65,7 @@ TEST(BaseSize, GivesTheFinestMeshTheInputsDensity) {
   for (int times : {3, 4, 5, 6}) {
     const TriangleMesh sphere = test::sphere(times);
     const auto components = count_components(topology_of(sphere), {});
-    const double base_faces = 2.0 * automatic_base_size(components, complexity_of(sphere)) - 4;
+    const double base_faces = 2.0 * automatic_base_size(components, complexity_of(sphere), {}) - 4;
     const int levels =
         automatic_levels(static_cast<std::size_t>(base_faces), sphere.triangles.size(), {});
     const double ratio =
@@ -78,7 +78,18 @@ TEST(BaseSize, GivesTheFinestMeshTheInputsDensity) {
 
 TEST(BaseSize, GrowsWithTheShape) {
   const auto components = count_components(topology_of(test::sphere(6)), {});
-  EXPECT_LT(automatic_base_size(components, 30), automatic_base_size(components, 30'000));
+  EXPECT_LT(automatic_base_size(components, 30, {}), automatic_base_size(components, 30'000, {}));
+}
+
+// A base as large as the depth allows is worth its bytes only where small errors are asked for.
+TEST(BaseSize, IsWhatTheShapeNeedsWhereALargeErrorWillDo) {
+  const auto components = count_components(topology_of(test::sphere(6)), {});
+  const auto size = [&](double max_error) {
+    return automatic_base_size(components, 30'000, {max_error, 6e-5});
+  };
+  EXPECT_LT(size(3e-4), size(0));
+  EXPECT_EQ(size(3e-4), size(1e-2));
+  EXPECT_EQ(size(1e-4), size(0));
 }
 
 TEST(BaseSize, TinyComponentsAreTheirOwnBase) {
@@ -127,7 +138,7 @@ TEST(BaseSize, LevelsFollowTheErrorAskedFor) {
   EXPECT_EQ(full, 5);
   EXPECT_EQ(automatic_levels(360, 100'000, {0, 6e-5}), full);
   EXPECT_EQ(automatic_levels(360, 100'000, {1e-4, 6e-5}), full);
-  EXPECT_EQ(automatic_levels(360, 100'000, {2e-5, 6e-5}), full + 1);
+  EXPECT_EQ(automatic_levels(360, 100'000, {5e-5, 6e-5}), full + 1);
   EXPECT_EQ(automatic_levels(360, 100'000, {3e-4, 6e-5}), full - 1);
   EXPECT_EQ(automatic_levels(360, 100'000, {1e-1, 6e-5}), 2);
 }
