@@ -4,6 +4,7 @@
 #include "bitstream/base_topology.h"
 #include "shapes.h"
 #include "surface/surface_synthesis.h"
+#include "transforms.h"
 
 namespace zerotree::test {
 
@@ -30,7 +31,5 @@ inline surface::Positions subdivided(const surface::SubdivisionHierarchy& hierar
 inline Eigen::Vector3d point_at(const surface::Positions& positions, std::size_t vertex) {
   return {positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]};
 }
-
-inline constexpr auto kQuadratureMirror = surface::WaveletTransform::loop_quadrature_mirror;
 
 }  // namespace zerotree::test
