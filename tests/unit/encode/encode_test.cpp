@@ -57,13 +57,8 @@ struct LocalDetail {
 LocalDetail local_detail(const surface::EdgeTangents& tangents, double mean_area,
                          const surface::Dequantisation& dequantisation, int levels, int level,
                          const Eigen::Vector3d& detail) {
-  const surface::EdgeFrame frame = tangents.frame();
   const double weight = double{surface::area_weight(tangents.triangle_area(), mean_area)};
-  const surface::Vector3 vector = {detail.x(), detail.y(), detail.z()};
-  LocalDetail local{
-      {surface::dot_product(frame.normal, vector), surface::dot_product(frame.tangent1, vector),
-       surface::dot_product(frame.tangent2, vector)},
-      {}};
+  LocalDetail local{tangents.frame().components({detail.x(), detail.y(), detail.z()}), {}};
   for (std::size_t c = 0; c < 3; ++c)
     local.units[c] =
         double{detail_unit(dequantisation, levels, level, static_cast<bitstream::Channel>(c))} /
