@@ -1,12 +1,10 @@
 #include "analysis/level_split.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <utility>
 
 #include "analysis/coordinate_solve.h"
+#include "analysis/eliminated_matrix.h"
 #include "analysis/synthesis_matrix.h"
 
 namespace zerotree::analysis {
@@ -49,15 +47,7 @@ Eigen::Vector3d mean_of(const Points& points) {
   return sum / static_cast<double>(points.size());
 }
 
-template <class Visit>
-void for_each_tap(const surface::SubdivisionStencils& rows, std::size_t row, const Visit& visit) {
-  for (int k = rows.offsets[row]; k < rows.offsets[row] + rows.sizes[row]; ++k) {
-    const auto entry = static_cast<std::size_t>(k);
-    visit(static_cast<std::size_t>(rows.indices[entry]), static_cast<double>(rows.weights[entry]));
-  }
-}
-
-// Adds `weight` times each edge's value at its end points.
+// Adds each edge's value, times its weight there, at its end points.
 Points add_at_ends(const surface::SubdivisionLevel& level,
                    const std::vector<std::array<float, 2>>& weights, const Eigen::Vector3d* edges,
                    Points points) {
@@ -67,65 +57,6 @@ Points add_at_ends(const surface::SubdivisionLevel& level,
           static_cast<double>(weights[edge][end]) * edges[edge];
   return points;
 }
-
-// P_even + D P_odd. Its rows are gathered one vertex at a time.
-class EliminatedMatrix {
- public:
-  explicit EliminatedMatrix(const surface::SubdivisionLevel& level)
-      : level_(level), place_(level.vertex_count, -1), edges_begin_(level.vertex_count + 1, 0) {
-    for (const auto& ends : level.edges.vertices)
-      for (const std::uint32_t v : ends) ++edges_begin_[v + 1];
-    for (std::size_t v = 0; v < level.vertex_count; ++v) edges_begin_[v + 1] += edges_begin_[v];
-    edge_ends_.resize(edges_begin_.back());
-    std::vector<std::size_t> next(edges_begin_.begin(), edges_begin_.end() - 1);
-    for (std::size_t edge = 0; edge < level.edge_count; ++edge)
-      for (std::size_t end = 0; end < 2; ++end)
-        edge_ends_[next[level.edges.vertices[edge][end]]++] = 2 * edge + end;
-  }
-
-  SparseMatrix build() {
-    const auto size = static_cast<Eigen::Index>(level_.vertex_count);
-    SparseMatrix matrix(size, size);
-    // The ring of every vertex and itself.
-    matrix.reserve(size + 2 * static_cast<Eigen::Index>(level_.edge_count));
-    for (std::size_t v = 0; v < level_.vertex_count; ++v) {
-      gather_row(v);
-      matrix.startVec(static_cast<Eigen::Index>(v));
-      std::sort(row_.begin(), row_.end());
-      for (const auto& [column, weight] : row_) {
-        matrix.insertBack(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(column)) = weight;
-        place_[column] = -1;
-      }
-    }
-    matrix.finalize();
-    return matrix;
-  }
-
- private:
-  void gather_row(std::size_t v) {
-    row_.clear();
-    const auto add = [&](std::size_t column, double weight) {
-      if (place_[column] < 0) {
-        place_[column] = static_cast<int>(row_.size());
-        row_.emplace_back(column, 0.0);
-      }
-      row_[static_cast<std::size_t>(place_[column])].second += weight;
-    };
-    for_each_tap(level_.subdivision, v, add);
-    for (std::size_t i = edges_begin_[v]; i < edges_begin_[v + 1]; ++i) {
-      const std::size_t edge = edge_ends_[i] / 2;
-      const double dip = level_.local_details.dips[edge][edge_ends_[i] % 2];
-      if (dip == 0) continue;
-      for_each_tap(level_.subdivision, level_.vertex_count + edge,
-                   [&](std::size_t column, double weight) { add(column, dip * weight); });
-    }
-  }
-
-  const surface::SubdivisionLevel& level_;
-  std::vector<int> place_;  // of a column in the row being gathered
-  std::vector<std::pair<std::size_t, double>> row_;
-  std::vector<std::size_t> edges_begin_, edge_ends_;  // 2 * edge + end, by vertex
-};
 
 }  // namespace
 
@@ -159,9 +90,8 @@ CoarseAndDetails split_by_elimination(const surface::SubdivisionLevel& level, co
   const Points even(shape.begin(), odd);
   const Coordinates right =
       coordinates_of(add_at_ends(level, level.local_details.dips, &*odd, even));
-  const SparseMatrix matrix = EliminatedMatrix(level).build();
-  const Coordinates solution =
-      solve_coordinates(matrix, right, coordinates_of(even), options);
+  const SparseMatrix matrix = eliminated_matrix(level);
+  const Coordinates solution = solve_coordinates(matrix, right, coordinates_of(even), options);
   const Points lowered = points_of(solution, 0, level.vertex_count);
   CoarseAndDetails result;
   result.details.assign(odd, shape.end());
@@ -179,9 +109,8 @@ Points subdivide(const surface::SubdivisionLevel& level, const Points& coarse) {
   const auto& rows = level.subdivision;
   Points fine(rows.sizes.size(), Eigen::Vector3d::Zero());
   for (std::size_t row = 0; row < fine.size(); ++row)
-    for_each_tap(rows, row, [&](std::size_t vertex, double weight) {
-      fine[row] += weight * coarse[vertex];
-    });
+    for_each_tap(rows, row,
+                 [&](std::size_t vertex, double weight) { fine[row] += weight * coarse[vertex]; });
   return fine;
 }
 

@@ -28,7 +28,8 @@ struct CoarseAndDetails {
 CoarseAndDetails split_by_columns(const surface::SubdivisionLevel& level, const Points& fine,
                                   const SplitOptions& options);
 
-/// The same for a level with a local filter, whose details can be eliminated: with q = coarse - lift,
+/// The same for a level with a local filter, whose details can be eliminated: with q = coarse -
+/// lift,
 ///   (P_even + D P_odd) q = fine_even + D fine_odd
 /// where D sums the details of the edges at a vertex with their dips; then the details are
 /// fine_odd - P_odd q. A well conditioned system of one-ring rows: about 0.4 microseconds per fine

@@ -18,10 +18,6 @@ std::vector<float> single_precision(const std::vector<Eigen::Vector3d>& vectors)
   return result;
 }
 
-double component(const surface::Vector3& axis, const Eigen::Vector3d& detail) {
-  return axis[0] * detail[0] + axis[1] * detail[1] + axis[2] * detail[2];
-}
-
 }  // namespace
 
 std::vector<std::vector<Eigen::Vector3d>> local_details(
@@ -32,13 +28,12 @@ std::vector<std::vector<Eigen::Vector3d>> local_details(
     const surface::SubdivisionLevel& level = hierarchy.level(static_cast<int>(number));
     surface::Positions fine = surface::subdivide(level, points);
     for (std::size_t edge = 0; edge < level.edge_count; ++edge) {
-      const surface::EdgeFrame frame =
-          surface::edge_tangents(fine.data(), level.vertex_count, level.edges.vertices[edge],
-                                 level.edges.wings[edge])
-              .frame();
-      const Eigen::Vector3d detail = result[number][edge];
-      result[number][edge] = {component(frame.normal, detail), component(frame.tangent1, detail),
-                              component(frame.tangent2, detail)};
+      const surface::EdgeTangents tangents = surface::edge_tangents(
+          fine.data(), level.vertex_count, level.edges.vertices[edge], level.edges.wings[edge]);
+      Eigen::Vector3d& detail = result[number][edge];
+      const auto [normal, tangent1, tangent2] =
+          tangents.frame().components({detail.x(), detail.y(), detail.z()});
+      detail = {normal, tangent1, tangent2};
     }
     surface::add_details(level, single_precision(decomposition.details[number]), fine);
     points = std::move(fine);

@@ -42,15 +42,11 @@ void quantise_level(const surface::SubdivisionLevel& from, int level,
   for (std::size_t i = 0; i < from.edges.cell_to_edge.size(); ++i) {
     const std::uint32_t edge = from.edges.cell_to_edge[i];
     if (edge == bitstream::kNone) continue;
-    const surface::EdgeTangents tangents =
-        surface::edge_tangents(predicted.data(), from.vertex_count, from.edges.vertices[edge],
-                               from.edges.wings[edge]);
+    const surface::EdgeTangents tangents = surface::edge_tangents(
+        predicted.data(), from.vertex_count, from.edges.vertices[edge], from.edges.wings[edge]);
     const double weight = double{surface::area_weight(tangents.triangle_area(), mean_area)};
-    const surface::EdgeFrame frame = tangents.frame();
-    const surface::Vector3 detail = {details[edge].x(), details[edge].y(), details[edge].z()};
-    const std::array<double, 3> local = {surface::dot_product(frame.normal, detail),
-                                         surface::dot_product(frame.tangent1, detail),
-                                         surface::dot_product(frame.tangent2, detail)};
+    const surface::Vector3 local =
+        tangents.frame().components({details[edge].x(), details[edge].y(), details[edge].z()});
     for (std::size_t c = 0; c < units.size(); ++c)
       set.channels[c][begin + i] = midpoint_value(local[c] * weight, units[c], level);
   }
@@ -73,6 +69,7 @@ CoefficientSet quantise_details(const surface::SubdivisionHierarchy& hierarchy,
     surface::Positions fine = surface::subdivide(from, points);
     quantise_level(from, level, decomposition.details[static_cast<std::size_t>(level)],
                    dequantisation, mean_area, fine, set);
+    if (level + 1 == set.levels) break;
     const surface::LocalDetails decoded =
         surface::dequantise(hierarchy, set, dequantisation, level);
     surface::add_details(from, surface::detail_moves(from, decoded, mean_area, fine), fine);

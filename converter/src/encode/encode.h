@@ -25,7 +25,7 @@ struct EncodeOptions {
   /// Bits per coordinate of an embedded base; 0 chooses so many that the error of the base, which
   /// its basis functions spread widely, weighs about as much as that of the details.
   int base_position_bits = 0;
-  /// The transform that `decomposition` was made with.
+  /// The transform that `decomposition` was made with; a hierarchy at hand has its own.
   surface::WaveletTransform transform = surface::WaveletTransform::loop_local;
 };
 

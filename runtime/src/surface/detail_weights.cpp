@@ -26,8 +26,7 @@ Vector3 difference(std::span<const float> positions, std::uint32_t to, std::uint
 double mean_face_area(const bitstream::BaseTopology& topology, std::span<const float> positions) {
   double total = 0.0;
   for (const auto& [a, b, c] : topology.triangles) {
-    const Vector3 normal =
-        cross_product(difference(positions, b, a), difference(positions, c, a));
+    const Vector3 normal = cross_product(difference(positions, b, a), difference(positions, c, a));
     total += 0.5 * std::sqrt(dot_product(normal, normal));
   }
   return total / static_cast<double>(std::max<std::size_t>(topology.triangles.size(), 1));

@@ -12,17 +12,23 @@ namespace zerotree::surface {
 
 using Vector3 = std::array<double, 3>;
 
-/// An orthonormal, right-handed frame: tangent1 x tangent2 = normal.
-struct EdgeFrame {
-  Vector3 normal, tangent1, tangent2;
-};
-
 inline Vector3 cross_product(const Vector3& a, const Vector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 inline double dot_product(const Vector3& a, const Vector3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
+
+/// An orthonormal, right-handed frame: tangent1 x tangent2 = normal.
+struct EdgeFrame {
+  Vector3 normal, tangent1, tangent2;
+
+  /// `vector` as (normal, tangent 1, tangent 2).
+  Vector3 components(const Vector3& vector) const {
+    return {dot_product(normal, vector), dot_product(tangent1, vector),
+            dot_product(tangent2, vector)};
+  }
+};
 
 /// The frame of the surface whose tangents are `along` and `across`: tangent 1 points along,
 /// tangent 2 to the side of `across`. Orthonormal and finite for any arguments: where they do not
@@ -58,22 +64,22 @@ inline EdgeFrame frame_from_tangents(const Vector3& along, const Vector3& across
 /// Two tangents of the coarser level's surface at an odd vertex.
 struct EdgeTangents {
   Vector3 along, across;
-  /// Mean area of the coarser level's triangles beside the edge, as this surface has it there.
+  /// A triangle of the coarser level beside the edge in units of |along x across|.
+  double area_share;
+
+  EdgeFrame frame() const { return frame_from_tangents(along, across); }
+  /// Mean area of these triangles, as the surface has it there.
   double triangle_area() const {
     const Vector3 normal = cross_product(along, across);
     return area_share * std::sqrt(dot_product(normal, normal));
   }
-  EdgeFrame frame() const { return frame_from_tangents(along, across); }
-
-  /// |along x across| counts the area of so many triangles; as a factor.
-  double area_share;
 };
 
 /// The tangents from the control points of the finer level before the detail is added: `predicted`
-/// = P * coarse, x, y, z per vertex. {tail, head} are the edge's even vertices, `wings` those of its
-/// EdgeLevel, `first_odd` the coarser level's number of vertices. In the interior these are Loop's
-/// limit tangents of the (always regular) odd vertex; on a crease the mean of both sides; on a
-/// boundary the B-spline curve and the surface beside it.
+/// = P * coarse, x, y, z per vertex. {tail, head} are the edge's even vertices, `wings` those of
+/// its EdgeLevel, `first_odd` the coarser level's number of vertices. In the interior these are
+/// Loop's limit tangents of the (always regular) odd vertex; on a crease the mean of both sides; on
+/// a boundary the B-spline curve and the surface beside it.
 template <class Real>
 EdgeTangents edge_tangents(const Real* predicted, std::uint32_t first_odd,
                            const std::array<std::uint32_t, 2>& vertices,

@@ -11,10 +11,12 @@ struct EndWeights {
   float dip, lift;
 };
 constexpr EndWeights kSurface = {0.30f, 0.05f};
-// A curve's coarse points weigh 2 in all, so this has zero mean too: 1 - 2 * 0.30 - 2 * 0.10 * 2.
+// A column of P sums to 2 along a curve, not 4, so this has zero mean there too:
+// 1 - 2 * 0.30 - 2 * 0.10 * 2.
 constexpr EndWeights kCurve = {0.30f, 0.10f};
 constexpr EndWeights kUntouched = {0.0f, 0.0f};
 
+// Of an edge at `vertex`, one of its ends.
 EndWeights weights_at(const RefinerLevel& level, int vertex, bool edge_is_sharp) {
   using Rule = OpenSubdiv::Sdc::Crease::Rule;
   const Rule rule = level.GetVertexRule(vertex);

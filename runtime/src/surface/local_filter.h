@@ -17,11 +17,12 @@ struct LocalFilter {
   std::vector<std::array<float, 2>> dips, lifts;
 };
 
-/// The filter of `level`, whose edges are `edges`. At a smooth interior vertex of valence k the dip
+/// The filter of `level`, whose edges are `edges`. At a smooth or dart vertex of valence k the dip
 /// is 0.30 and the lift 0.05, both times 6 / k: a wavelet that dips beside its peak is close to
 /// orthogonal to Loop's scaling functions, and the two together give it zero mean on the regular
-/// lattice (1 - 2 * 0.30 - 2 * 0.05 * 4). Along boundaries and creases the curve has a filter of its
-/// own (cubic B-spline) and no detail of the surface beside it moves it.
+/// lattice (1 - 2 * 0.30 - 2 * 0.05 * 4). Along boundaries and creases the curve has a filter of
+/// its own (cubic B-spline), and no detail of an edge beside it moves it but where it ends in a
+/// dart. Corners stay where they are.
 LocalFilter local_filter(const RefinerLevel& level, const EdgeLevel& edges);
 
 }  // namespace zerotree::surface

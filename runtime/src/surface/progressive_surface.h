@@ -33,8 +33,8 @@ class ProgressiveSurface {
   /// the base is no surface or the limits do not allow its levels.
   explicit ProgressiveSurface(ExternalBase base, const bitstream::Limits& limits = {});
 
-  /// A hierarchy to use wherever its transform, sharp tags and levels suffice, so that several surfaces
-  /// of one base share it. Its base has this stream's triangles.
+  /// A hierarchy to use wherever its transform, sharp tags and levels suffice, so that several
+  /// surfaces of one base share it. Its base has this stream's triangles.
   void share(std::shared_ptr<const SubdivisionHierarchy> hierarchy);
 
   bitstream::DecodeStatus feed(std::span<const std::uint8_t> bytes);

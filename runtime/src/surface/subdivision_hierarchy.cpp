@@ -23,6 +23,18 @@ namespace {
 using StencilTable = Far::StencilTableReal<float>;
 using StencilTableFactory = Far::StencilTableFactoryReal<float>;
 
+void add_detail_filter(const RefinerLevel& refined, WaveletTransform transform,
+                       SubdivisionLevel& level) {
+  switch (transform) {
+    case WaveletTransform::loop_quadrature_mirror:
+      level.details = quadrature_mirror_stencils(refined);
+      return;
+    case WaveletTransform::loop_local:
+      level.local_details = local_filter(refined, level.edges);
+      return;
+  }
+}
+
 std::unique_ptr<const StencilTable> subdivision_table(const Refiner& refiner) {
   StencilTableFactory::Options options;
   options.interpolationMode = StencilTableFactory::INTERPOLATE_VERTEX;
@@ -84,10 +96,7 @@ SubdivisionHierarchy::SubdivisionHierarchy(const bitstream::BaseTopology& base, 
                               : child_edge_level(
                                     refiner->GetLevel(number - 1),
                                     levels_[static_cast<std::size_t>(number) - 1].edges, refined);
-    if (transform == WaveletTransform::loop_local)
-      level.local_details = local_filter(refined, level.edges);
-    else
-      level.details = quadrature_mirror_stencils(refined);
+    add_detail_filter(refined, transform, level);
   }
   if (levels == 0) return;
   const auto table = subdivision_table(*refiner);

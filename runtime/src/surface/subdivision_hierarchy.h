@@ -27,8 +27,8 @@ struct SubdivisionLevel {
   SharedStencils limit;             ///< see limit_stencils.h
   EdgeLevel edges;                  ///< to the next level: where details belong
   SubdivisionStencils subdivision;  ///< to the next level: P
-  SharedStencils details;           ///< to the next level: Q, one row per edge; or
-  LocalFilter local_details;        ///< the transform loop_local
+  SharedStencils details;           ///< to the next level: Q, one row per edge; or, if the
+  LocalFilter local_details;        ///< transform is loop_local, this
 };
 
 /// All levels 0 .. levels() of a base mesh, numbered as OpenSubdiv's uniform refinement does: the

@@ -27,7 +27,8 @@ Positions subdivide(const SubdivisionLevel& level, const Positions& coarse) {
 namespace {
 
 bool is_zero(const std::vector<float>& vectors, std::size_t edge) {
-  return vectors[3 * edge] == 0.0f && vectors[3 * edge + 1] == 0.0f && vectors[3 * edge + 2] == 0.0f;
+  return vectors[3 * edge] == 0.0f && vectors[3 * edge + 1] == 0.0f &&
+         vectors[3 * edge + 2] == 0.0f;
 }
 
 void add(float* point, float weight, const float* move) {
@@ -44,6 +45,8 @@ void add_columns(const SubdivisionLevel& level, const Moves& moves, Positions& f
 }
 
 void add_local(const SubdivisionLevel& level, const Moves& moves, Positions& fine) {
+  // Most prefixes have nothing at the finer levels.
+  if (std::all_of(moves.begin(), moves.end(), [](float x) { return x == 0.0f; })) return;
   Positions lifts(3 * std::size_t{level.vertex_count}, 0.0f);
   const std::size_t first_odd = 3 * std::size_t{level.vertex_count};
   const LocalFilter& filter = level.local_details;
@@ -67,18 +70,17 @@ Moves detail_moves(const SubdivisionLevel& level, const LocalDetails& details, d
   Moves moves(details.size(), 0.0f);
   for (std::size_t edge = 0; edge < level.edge_count; ++edge) {
     if (is_zero(details, edge)) continue;
-    const EdgeTangents tangents =
-        edge_tangents(predicted.data(), level.vertex_count, level.edges.vertices[edge],
-                      level.edges.wings[edge]);
+    const EdgeTangents tangents = edge_tangents(
+        predicted.data(), level.vertex_count, level.edges.vertices[edge], level.edges.wings[edge]);
     const EdgeFrame frame = tangents.frame();
     const float* detail = &details[3 * edge];
     const double scale =
         1.0 / static_cast<double>(area_weight(tangents.triangle_area(), mean_area));
     for (std::size_t axis = 0; axis < 3; ++axis)
-      moves[3 * edge + axis] = static_cast<float>(
-          scale * (frame.normal[axis] * static_cast<double>(detail[0]) +
-                   frame.tangent1[axis] * static_cast<double>(detail[1]) +
-                   frame.tangent2[axis] * static_cast<double>(detail[2])));
+      moves[3 * edge + axis] =
+          static_cast<float>(scale * (frame.normal[axis] * static_cast<double>(detail[0]) +
+                                      frame.tangent1[axis] * static_cast<double>(detail[1]) +
+                                      frame.tangent2[axis] * static_cast<double>(detail[2])));
   }
   return moves;
 }

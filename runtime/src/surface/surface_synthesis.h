@@ -23,8 +23,8 @@ Positions subdivide(const SubdivisionLevel& level, const Positions& coarse);
 /// The details of a level in global axes: x, y, z of each edge.
 using Moves = std::vector<float>;
 
-/// The moves that local details of area weight 1 stand for. `predicted` is what `subdivide`
-/// returned: frames and areas are taken from it. `mean_area` is that of the level's triangles.
+/// The moves that `details`, as `dequantise` gives them, stand for in frames and areas of
+/// `predicted`, which is what `subdivide` returned. `mean_area` is that of the level's triangles.
 Moves detail_moves(const SubdivisionLevel& level, const LocalDetails& details, double mean_area,
                    const Positions& predicted);
 

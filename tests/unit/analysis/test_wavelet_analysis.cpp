@@ -6,9 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <tuple>
 
+#include "analysis/local_details.h"
 #include "mesh/error.h"
 #include "mesh/triangle_mesh.h"
+#include "surface/detail_weights.h"
+#include "surface/edge_frames.h"
 #include "surface/surface_synthesis.h"
 #include "torus_base.h"
 
@@ -20,12 +24,17 @@ using surface::SubdivisionHierarchy;
 
 constexpr int kLevels = 3;
 
+std::vector<float> single_precision(const std::vector<Eigen::Vector3d>& vectors) {
+  std::vector<float> result;
+  for (const Eigen::Vector3d& v : vectors)
+    for (int axis = 0; axis < 3; ++axis) result.push_back(static_cast<float>(v[axis]));
+  return result;
+}
+
 /// The base subdivided to `hierarchy`'s finest level by Loop and shaken.
 std::vector<Eigen::Vector3d> shaken_points(const SubdivisionHierarchy& hierarchy,
                                            const TriangleMesh& base, double amplitude) {
-  surface::Positions points;
-  for (const Eigen::Vector3d& p : base.positions)
-    for (int axis = 0; axis < 3; ++axis) points.push_back(static_cast<float>(p[axis]));
+  surface::Positions points = single_precision(base.positions);
   for (int number = 0; number < hierarchy.levels(); ++number)
     points = surface::subdivide(hierarchy.level(number), points);
   std::mt19937 random(11);
@@ -40,15 +49,12 @@ std::vector<Eigen::Vector3d> shaken_points(const SubdivisionHierarchy& hierarchy
 /// What the runtime makes of unquantised details, in its own floats.
 surface::Positions synthesise(const SubdivisionHierarchy& hierarchy,
                               const WaveletDecomposition& decomposition) {
-  surface::Positions points;
-  for (const Eigen::Vector3d& p : decomposition.base_control_points)
-    for (int axis = 0; axis < 3; ++axis) points.push_back(static_cast<float>(p[axis]));
+  surface::Positions points = single_precision(decomposition.base_control_points);
   for (int number = 0; number < hierarchy.levels(); ++number) {
-    surface::LocalDetails details;
-    for (const Eigen::Vector3d& d : decomposition.details[static_cast<std::size_t>(number)])
-      for (int axis = 0; axis < 3; ++axis) details.push_back(static_cast<float>(d[axis]));
     surface::Positions fine = surface::subdivide(hierarchy.level(number), points);
-    surface::add_details(hierarchy.level(number), details, fine);
+    surface::add_details(hierarchy.level(number),
+                         single_precision(decomposition.details[static_cast<std::size_t>(number)]),
+                         fine);
     points = std::move(fine);
   }
   return points;
@@ -64,31 +70,45 @@ double largest_difference(const surface::Positions& ours,
   return largest;
 }
 
-class WaveletAnalysis : public testing::TestWithParam<Shape> {};
+/// Those and one with darts and a corner inside.
+std::vector<Shape> shapes() {
+  std::vector<Shape> result = base_shapes();
+  result.push_back({"darts", grid(4, 4), {{11, 12}, {12, 13}}, {6}});
+  return result;
+}
+
+class WaveletAnalysis
+    : public testing::TestWithParam<std::tuple<Shape, surface::WaveletTransform>> {
+ protected:
+  const Shape& shape() const { return std::get<0>(GetParam()); }
+  SubdivisionHierarchy hierarchy() const {
+    return {topology_of(shape()), kLevels, std::get<1>(GetParam())};
+  }
+};
 
 TEST_P(WaveletAnalysis, IsUndoneBySynthesis) {
-  const SubdivisionHierarchy hierarchy(topology_of(GetParam()), kLevels, kQuadratureMirror);
-  const auto fine = shaken_points(hierarchy, GetParam().mesh, 0.03);
+  const SubdivisionHierarchy hierarchy = this->hierarchy();
+  const auto fine = shaken_points(hierarchy, shape().mesh, 0.03);
   const auto decomposition = analysis::analyse(hierarchy, fine, {}, {});
   EXPECT_LT(largest_difference(synthesise(hierarchy, decomposition), fine),
             1e-5 * bounding_box_diagonal(fine));
 }
 
 TEST_P(WaveletAnalysis, FindsNoDetailsInASmoothSurface) {
-  const SubdivisionHierarchy hierarchy(topology_of(GetParam()), kLevels, kQuadratureMirror);
-  const auto fine = shaken_points(hierarchy, GetParam().mesh, 0.0);
+  const SubdivisionHierarchy hierarchy = this->hierarchy();
+  const auto fine = shaken_points(hierarchy, shape().mesh, 0.0);
   const auto decomposition = analysis::analyse(hierarchy, fine, {}, {});
   for (const auto& level : decomposition.details)
     for (const Eigen::Vector3d& detail : level) EXPECT_LT(detail.norm(), 1e-5);
 }
 
-// The details come back that were put in: frames, signs and places agree with the runtime.
+// The details come back that were put in: signs and places agree with the runtime.
 TEST_P(WaveletAnalysis, FindsTheDetailsThatWerePutIn) {
-  const SubdivisionHierarchy hierarchy(topology_of(GetParam()), kLevels, kQuadratureMirror);
+  const SubdivisionHierarchy hierarchy = this->hierarchy();
   std::mt19937 random(3);
   std::uniform_real_distribution<double> length(-0.01, 0.01);
   WaveletDecomposition put_in;
-  put_in.base_control_points = GetParam().mesh.positions;
+  put_in.base_control_points = shape().mesh.positions;
   for (int number = 0; number < kLevels; ++number)
     for (auto& level = put_in.details.emplace_back();
          level.size() < hierarchy.level(number).edge_count;)
@@ -103,12 +123,51 @@ TEST_P(WaveletAnalysis, FindsTheDetailsThatWerePutIn) {
       ASSERT_LT((found.details[level][edge] - put_in.details[level][edge]).norm(), 2e-4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, WaveletAnalysis, testing::ValuesIn(base_shapes()),
-                         [](const auto& shape) { return shape.param.name; });
+// In frames they are as long, and the frames are those that the runtime puts them into.
+TEST_P(WaveletAnalysis, DetailsInFramesAreThoseOfTheRuntime) {
+  const SubdivisionHierarchy hierarchy = this->hierarchy();
+  const auto fine = shaken_points(hierarchy, shape().mesh, 0.03);
+  const auto decomposition = analysis::analyse(hierarchy, fine, {}, {});
+  const auto local = analysis::local_details(hierarchy, decomposition);
+  surface::Positions points = single_precision(decomposition.base_control_points);
+  for (int number = 0; number < kLevels; ++number) {
+    const surface::SubdivisionLevel& level = hierarchy.level(number);
+    const auto& details = local[static_cast<std::size_t>(number)];
+    surface::Positions predicted = surface::subdivide(level, points);
+    surface::Moves moves = single_precision(details);
+    // The weight is the only thing that stands between the two.
+    for (std::size_t edge = 0; edge < level.edge_count; ++edge) {
+      const double area =
+          surface::edge_tangents(predicted.data(), level.vertex_count, level.edges.vertices[edge],
+                                 level.edges.wings[edge])
+              .triangle_area();
+      for (std::size_t c = 0; c < 3; ++c) moves[3 * edge + c] *= surface::area_weight(area, 0.1);
+    }
+    moves = surface::detail_moves(level, moves, 0.1, predicted);
+    const auto& global = decomposition.details[static_cast<std::size_t>(number)];
+    for (std::size_t edge = 0; edge < level.edge_count; ++edge) {
+      const Eigen::Vector3d move(moves[3 * edge], moves[3 * edge + 1], moves[3 * edge + 2]);
+      ASSERT_LT((move - global[edge]).norm(), 1e-5);
+      ASSERT_NEAR(details[edge].norm(), global[edge].norm(), 1e-9);
+    }
+    surface::add_details(level, single_precision(global), predicted);
+    points = std::move(predicted);
+  }
+}
 
-TEST(WaveletAnalysis, DoesNotDependOnTheNumberOfThreads) {
+INSTANTIATE_TEST_SUITE_P(Shapes, WaveletAnalysis,
+                         testing::Combine(testing::ValuesIn(shapes()),
+                                          testing::ValuesIn(kTransforms)),
+                         [](const auto& test) {
+                           return std::get<0>(test.param).name + "_" +
+                                  name_of(std::get<1>(test.param));
+                         });
+
+class AnyTransform : public testing::TestWithParam<surface::WaveletTransform> {};
+
+TEST_P(AnyTransform, DoesNotDependOnTheNumberOfThreads) {
   const Shape shape = base_shapes()[0];
-  const SubdivisionHierarchy hierarchy(topology_of(shape), kLevels, kQuadratureMirror);
+  const SubdivisionHierarchy hierarchy(topology_of(shape), kLevels, GetParam());
   const auto fine = shaken_points(hierarchy, shape.mesh, 0.05);
   analysis::AnalysisOptions three;
   three.threads = 3;
@@ -118,9 +177,9 @@ TEST(WaveletAnalysis, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(a.details, b.details);
 }
 
-TEST(WaveletAnalysis, RefusesWhatItCannotSplit) {
+TEST_P(AnyTransform, RefusesWhatItCannotSplit) {
   const Shape shape = base_shapes()[0];
-  const SubdivisionHierarchy hierarchy(topology_of(shape), 1, kQuadratureMirror);
+  const SubdivisionHierarchy hierarchy(topology_of(shape), 1, GetParam());
   auto fine = shaken_points(hierarchy, shape.mesh, 0.05);
   analysis::AnalysisOptions hasty;
   hasty.most_iterations = 1;
@@ -130,6 +189,9 @@ TEST(WaveletAnalysis, RefusesWhatItCannotSplit) {
   fine.pop_back();
   EXPECT_THROW(analysis::analyse(hierarchy, fine, {}, {}), Error);
 }
+
+INSTANTIATE_TEST_SUITE_P(Transforms, AnyTransform, testing::ValuesIn(kTransforms),
+                         [](const auto& test) { return name_of(test.param); });
 
 }  // namespace
 }  // namespace zerotree::test

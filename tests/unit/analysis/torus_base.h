@@ -3,7 +3,7 @@
 
 #include "bitstream/base_topology.h"
 #include "shapes.h"
-#include "surface/wavelet_transform.h"
+#include "transforms.h"
 
 namespace zerotree::test {
 
@@ -25,7 +25,5 @@ inline bitstream::BaseTopology topology_of(const Shape& shape) {
   return {static_cast<std::uint32_t>(shape.mesh.positions.size()), shape.mesh.triangles,
           shape.crease_edges, shape.corner_vertices};
 }
-
-inline constexpr auto kQuadratureMirror = surface::WaveletTransform::loop_quadrature_mirror;
 
 }  // namespace zerotree::test

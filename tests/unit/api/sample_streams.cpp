@@ -30,7 +30,7 @@ Sample sample_stream(const Shape& shape, const SampleOptions& options) {
   for (int level = 0; level < options.levels; ++level)
     for (auto& details = decomposition.details.emplace_back();
          details.size() < hierarchy.level(level).edge_count;)
-      details.push_back(0.02 * std::pow(0.3, level) *
+      details.push_back(0.02 * std::pow(0.4, level) *
                         Eigen::Vector3d(uniform(random), uniform(random), uniform(random)));
   encode::EncodeOptions encoding;
   encoding.finest_step = options.finest_step;

@@ -1,9 +1,12 @@
 // The base shapes in the form the surface room takes.
 #pragma once
 
+#include <vector>
+
 #include "bitstream/base_topology.h"
 #include "shapes.h"
 #include "surface/surface_synthesis.h"
+#include "transforms.h"
 
 namespace zerotree::test {
 
@@ -31,6 +34,22 @@ inline Eigen::Vector3d point_at(const surface::Positions& positions, std::size_t
   return {positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]};
 }
 
-inline constexpr auto kQuadratureMirror = surface::WaveletTransform::loop_quadrature_mirror;
+/// Appends the midpoints of the level's edges: the places of its odd vertices if nothing is curved.
+inline void append_midpoints(const surface::SubdivisionLevel& level,
+                             std::vector<Eigen::Vector3d>& flat) {
+  for (const auto& [tail, head] : level.edges.vertices)
+    flat.push_back(0.5 * (flat[tail] + flat[head]));
+}
+
+/// The face planes of the shape "cube" that go through `point`, as bits; its coordinates are 0 and
+/// 1.
+inline unsigned cube_planes(const Eigen::Vector3d& point) {
+  unsigned bits = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    bits |= point[axis] == 0.0 ? 1u << axis : 0u;
+    bits |= point[axis] == 1.0 ? 8u << axis : 0u;
+  }
+  return bits;
+}
 
 }  // namespace zerotree::test
