@@ -27,11 +27,11 @@ struct DomainOptions {
   /// degrees, half a diagonal of them together and one 25th of it on average between their ends,
   /// junctions and sharp turns. A closed rim in a plane may be shorter.
   double crease_angle_degrees = 0;
-  /// What the surface is wanted for; matters where the size of the base is left open.
-  AccuracyGoal goal = {};
   /// Vertices that must stay in the base mesh, ascending (the remesher's answer to a place where
   /// the undo of a collapse has no room).
   std::vector<std::uint32_t> pinned_vertices;
+  /// What the surface is wanted for; matters where the size of the base is left open.
+  AccuracyGoal goal = {};
 };
 
 /// What a vertex may do.

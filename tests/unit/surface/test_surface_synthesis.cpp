@@ -43,10 +43,10 @@ TEST(DetailWeights, AreTheRootOfTheAreaAndHeld) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinite = std::numeric_limits<double>::infinity();
   EXPECT_FLOAT_EQ(surface::area_weight(3.0, 3.0), 1.0f);
-  EXPECT_FLOAT_EQ(surface::area_weight(6.0, 3.0), std::sqrt(2.0f));
-  EXPECT_FLOAT_EQ(surface::area_weight(1.0, 1e5), 1.0f / 16.0f);
+  EXPECT_FLOAT_EQ(surface::area_weight(6.0, 3.0), std::sqrt(1.8f));
+  EXPECT_FLOAT_EQ(surface::area_weight(1.0, 1e9), std::sqrt(0.2f));
   EXPECT_FLOAT_EQ(surface::area_weight(1e5, 1.0), 16.0f);
-  EXPECT_FLOAT_EQ(surface::area_weight(0.0, 1.0), 1.0f / 16.0f);
+  EXPECT_FLOAT_EQ(surface::area_weight(0.0, 1.0), std::sqrt(0.2f));
   EXPECT_FLOAT_EQ(surface::area_weight(1.0, 0.0), 16.0f);
   EXPECT_FLOAT_EQ(surface::area_weight(0.0, 0.0), 1.0f);
   EXPECT_FLOAT_EQ(surface::area_weight(infinite, infinite), 1.0f);
