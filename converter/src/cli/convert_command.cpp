@@ -1,6 +1,8 @@
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "cli/commands.h"
 #include "cli/quantities.h"
@@ -52,6 +54,9 @@ void print_summary(const ConvertArguments& arguments, const report::ConvertRepor
   std::printf(
       "  remesh error %.2f, discretisation error of the input %.2f (1e-5 of the diagonal)\n",
       report.remeshing_error * 1e5, report.discretisation_error * 1e5);
+  if (report.transform_errors.local > 0)
+    std::printf("  transform %s: mean error local %.4g, mirror %.4g\n", report.transform.c_str(),
+                report.transform_errors.local, report.transform_errors.mirror);
   if (!report.remesh_remark.empty()) std::printf("  note: %s\n", report.remesh_remark.c_str());
   if (report.stream_bytes > 0) print_targets("stream", report.stream_targets);
   if (report.payload_bytes > 0) print_targets("glTF file", report.payload_targets);
@@ -126,6 +131,16 @@ void add_convert(CLI::App& app, int& exit_code) {
   command->add_option("--target-size", options.target_size, "The best output of at most this size, for each of -o (with --split: its "
                       "files together) and --stream: 200000, 200kB")
       ->transform(CLI::AsSizeValue(true));
+  const std::map<std::string, convert::TransformChoice> transforms{
+      {"auto", convert::TransformChoice::automatic},
+      {"local", convert::TransformChoice::local},
+      {"mirror", convert::TransformChoice::mirror}};
+  command
+      ->add_option("--transform", options.transform,
+                   "Wavelets: local, mirror (slower), auto: the better one by measured error "
+                   "[local]")
+      ->transform(CLI::CheckedTransformer(transforms))
+      ->type_name("auto|local|mirror");
   command->add_option("--threads", options.threads, "Threads [one per core]")
       ->check(CLI::Range(1, 1024));
   command->add_option("--memory-limit", options.memory_limit, "Most memory to use: 4GiB")

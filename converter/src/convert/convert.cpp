@@ -16,6 +16,7 @@
 #include "convert/prefix_errors.h"
 #include "convert/requested_repairs.h"
 #include "convert/surface_model.h"
+#include "convert/transform_choice.h"
 #include "discretisation/discretisation_error.h"
 #include "import/import_mesh.h"
 #include "measure/surface_distance.h"
@@ -116,7 +117,7 @@ report::ConvertReport convert_file(const ConvertOptions& asked, const Progress& 
                      [&] { return measure::SurfaceIndex(imported.mesh, options.threads); });
   });
   TriangleMesh cleaned;
-  const SurfaceModel model = name_input_in_errors(options.input, [&] {
+  SurfaceModel model = name_input_in_errors(options.input, [&] {
     cleaned = clean_input(imported.mesh, clock, report, progress);
     // What was asked to be changed is no error: measure against the changed surface.
     if (make_requested_repairs(cleaned, options, clock, report, progress))
@@ -128,18 +129,21 @@ report::ConvertReport convert_file(const ConvertOptions& asked, const Progress& 
     });
     return build_surface_model(cleaned, options, clock, report, progress);
   });
-  const PrefixMeasurement how = measurement_of(original, model, options, report);
+  PrefixMeasurement how = measurement_of(original, model, options, report);
   report.remeshing_error = clock.run("measure remesh", [&] { return remeshing_error(model, how); });
   report.remesh_remark = report::explain_remeshing_error(report);
-  const analysis::WaveletDecomposition wavelets = analyse_model(model, options, clock, progress);
-  const auto local_details = analysis::local_details(*model.hierarchy, wavelets);
+  const AnalysedModel analysed =
+      analyse_with_choice(std::move(model), options, how, clock, report, progress);
+  how.hierarchy = analysed.model.hierarchy;
+  const auto local_details = analysis::local_details(*how.hierarchy, analysed.wavelets);
   report.level_details = level_details(local_details, report.diagonal);
   if (!options.debug_pictures.empty())
     clock.run("pictures", [&] {
-      write_debug_pictures(options.debug_pictures, {cleaned, original, model, local_details, report},
+      write_debug_pictures(options.debug_pictures,
+                           {cleaned, original, analysed.model, local_details, report},
                            options.threads, progress);
     });
-  write_outputs(model, wavelets, options, how, clock, report, progress);
+  write_outputs(analysed, options, how, clock, report, progress);
   if (!options.glb.empty()) report.file_bytes = std::filesystem::file_size(options.glb);
   report.stages = clock.costs();
   return report;

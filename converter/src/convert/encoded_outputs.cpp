@@ -1,6 +1,5 @@
 #include "convert/encoded_outputs.h"
 
-#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -9,7 +8,6 @@
 #include "convert/output_files.h"
 #include "convert/refinable_stream.h"
 #include "convert/stream_targets.h"
-#include "encode/encode.h"
 #include "export/atomic_file.h"
 #include "gltf/progressive_writer.h"
 #include "surface/surface_synthesis.h"
@@ -17,16 +15,9 @@
 namespace zerotree::convert {
 namespace {
 
-// The finest step in units of the remeshing error: rounding then adds less than that to it. Targets
-// may ask for finer ones.
-constexpr double kStepPerRemeshingError = 1.0;
-// ... but never finer than this part of the diagonal, about what float positions resolve.
-constexpr double kFinestRelativeStep = 1e-7;
-
 // What both outputs are made of.
 struct OutputSource {
-  const SurfaceModel& model;
-  const analysis::WaveletDecomposition& wavelets;
+  const AnalysedModel& analysed;
   const ConvertOptions& options;
   const PrefixMeasurement& how;
 };
@@ -40,34 +31,20 @@ StreamTargets targets_of(const OutputSource& source) {
 
 RefinableStream refinable_stream(const OutputSource& source, double remeshing_error,
                                  StepEncoder encode) {
-  const double relative = std::max(kStepPerRemeshingError * remeshing_error, kFinestRelativeStep);
-  return {std::move(encode), source.how.diagonal * relative,
+  return {std::move(encode), source.how.diagonal * default_step(remeshing_error),
           source.how.diagonal * kFinestRelativeStep, source.how};
-}
-
-decode::StreamFile encode_model(const OutputSource& source,
-                                const analysis::WaveletDecomposition& wavelets, double finest_step,
-                                bool embed_base) {
-  encode::EncodeOptions options;
-  options.finest_step = finest_step;
-  options.embed_base = embed_base;
-  encode::EncodedStream encoded = encode::encode(*source.model.hierarchy, wavelets, options);
-  decode::StreamFile file;
-  file.bytes = std::move(encoded.bytes);
-  file.external_base = !embed_base;
-  file.base = source.model.base;
-  file.levels = source.model.hierarchy->levels();
-  file.base_positions = std::move(encoded.base_positions);
-  return file;
 }
 
 // For glTF: bound to the base of the accessors, which lies on a grid if it is to be compressed.
 StepEncoder payload_encoder(const OutputSource& source) {
   if (!source.options.compress_base)
-    return [&source](double step) { return encode_model(source, source.wavelets, step, false); };
-  const gltf::Placement grid = grid_for(source.wavelets.base_control_points);
-  return [&source, grid, wavelets = on_grid(source.wavelets, grid)](double step) {
-    decode::StreamFile file = encode_model(source, wavelets, step / grid.scale, false);
+    return [&source](double step) {
+      return encode_model(source.analysed.model, source.analysed.wavelets, step, false);
+    };
+  const gltf::Placement grid = grid_for(source.analysed.wavelets.base_control_points);
+  return [&source, grid, wavelets = on_grid(source.analysed.wavelets, grid)](double step) {
+    decode::StreamFile file =
+        encode_model(source.analysed.model, wavelets, step / grid.scale, false);
     file.placement = grid;
     return file;
   };
@@ -83,7 +60,7 @@ std::vector<Eigen::Vector3f> base_normals(const surface::SubdivisionHierarchy& h
 }
 
 gltf::ProgressiveAsset asset_of(const OutputSource& source, const MeasuredStream& payload) {
-  const surface::SubdivisionHierarchy& hierarchy = *source.model.hierarchy;
+  const surface::SubdivisionHierarchy& hierarchy = *source.analysed.model.hierarchy;
   std::vector<Eigen::Vector3f> normals;
   if (source.options.base_normals) normals = base_normals(hierarchy, payload.file.base_positions);
   return make_asset(payload, hierarchy.levels(), source.how.diagonal, normals,
@@ -109,7 +86,7 @@ void make_stream(const OutputSource& source, std::optional<CheckedOutput>& outpu
                  const Progress& progress) {
   RefinableStream encoded = clock.run("encode stream", [&] {
     return refinable_stream(source, report.remeshing_error, [&source](double step) {
-      return encode_model(source, source.wavelets, step, true);
+      return encode_model(source.analysed.model, source.analysed.wavelets, step, true);
     });
   });
   const MeasuredStream stream = clock.run("measure stream", [&] {
@@ -145,11 +122,10 @@ void make_gltf(const OutputSource& source, std::optional<CheckedOutput>& output,
 
 }  // namespace
 
-void write_outputs(const SurfaceModel& model, const analysis::WaveletDecomposition& wavelets,
-                   const ConvertOptions& options, const PrefixMeasurement& how,
-                   report::StageClock& clock, report::ConvertReport& report,
-                   const Progress& progress) {
-  const OutputSource source{model, wavelets, options, how};
+void write_outputs(const AnalysedModel& analysed, const ConvertOptions& options,
+                   const PrefixMeasurement& how, report::StageClock& clock,
+                   report::ConvertReport& report, const Progress& progress) {
+  const OutputSource source{analysed, options, how};
   std::optional<CheckedOutput> stream_output, gltf_output;
   if (!options.stream.empty()) make_stream(source, stream_output, clock, report, progress);
   if (!options.glb.empty()) make_gltf(source, gltf_output, clock, report, progress);

@@ -21,7 +21,7 @@ constexpr double kClearlyEnough = 0.8;
 constexpr double kUnusedShare = 0.002;
 // The table's last error is measured again at the end and may take more digits then.
 constexpr std::uint64_t kSpareBytes = 4;
-constexpr int kMostRounds = 12;
+constexpr int kMostRounds = 60;
 
 std::string scientific(double value) {
   char text[32];
@@ -93,32 +93,44 @@ MeasuredStream cut_at_error(RefinableStream& stream, const StreamTargets& target
                   ": allow more, or ask for fewer --base-vertices");
 }
 
+// The next length to try between the longest known to fit and the shortest known not to: what is
+// left beside the rest if that were the same, otherwise the middle.
+std::uint64_t next_length(std::uint64_t size, std::uint64_t beside, std::uint64_t fits,
+                          std::uint64_t fits_not) {
+  const std::uint64_t reserved = beside + std::min(beside, kSpareBytes);
+  const std::uint64_t guess = size > reserved ? size - reserved : 1;
+  return guess > fits && guess < fits_not ? guess : fits + (fits_not - fits) / 2;
+}
+
 // What is written beside a stream depends a little on it: a few rounds settle the length of the
-// cut. From the first cut that is exactly measured and fits, none is longer.
+// cut.
 MeasuredStream cut_at_size(RefinableStream& stream, std::uint64_t size,
                            const WrittenSize& written_size, const Progress& progress) {
-  std::uint64_t limit = size;
+  const auto unused = static_cast<std::uint64_t>(kUnusedShare * static_cast<double>(size));
   Precision precision = Precision::quick;
+  std::uint64_t fits = 0, fits_not = std::numeric_limits<std::uint64_t>::max(), limit = size;
   for (int round = 0; round < kMostRounds; ++round) {
     while (stream.file().bytes.size() < limit && stream.refine()) {
     }
-    const std::uint64_t shortest = stream.errors().shortest_with_surface();
-    const bool has_surface = limit >= shortest;
+    const std::uint64_t shortest =
+        std::max<std::uint64_t>(1, stream.errors().shortest_with_surface());
     MeasuredStream cut = measured(stream, std::max(limit, shortest), 0, precision, progress);
     const std::uint64_t written = written_size(cut), bytes = cut.file.bytes.size();
-    const std::uint64_t beside = written - bytes;
-    if (!has_surface || beside >= size)
-      refuse_size(size, beside + std::max<std::uint64_t>(1, shortest));
-    const auto unused = static_cast<std::uint64_t>(kUnusedShare * static_cast<double>(size));
-    const bool is_whole = bytes < limit;
-    const bool fits = written <= size;
-    if (fits && precision == Precision::exact) return cut;
-    if (fits && (is_whole || written + unused + kSpareBytes >= size)) {
+    const bool is_settled =
+        bytes < limit || written + unused + kSpareBytes >= size || bytes + 1 >= fits_not;
+    if (written > size) {
+      if (bytes <= shortest) refuse_size(size, written);
+      fits_not = std::min(fits_not, bytes);
+      limit = next_length(size, written - bytes, fits, fits_not);
+    } else if (precision == Precision::exact) {
+      return cut;
+    } else if (is_settled) {
       precision = Precision::exact;
       limit = bytes;
+      fits = 0;
     } else {
-      const std::uint64_t spare = std::min(beside, kSpareBytes);
-      limit = size - beside > spare ? size - beside - spare : 1;
+      fits = std::max(fits, bytes);
+      limit = next_length(size, written - bytes, fits, fits_not);
     }
   }
   throw Error(ExitCode::internal, "--target-size: no length of the stream was found that fits");

@@ -54,6 +54,13 @@ struct ReachedTargets {
   bool is_whole_stream = true;
 };
 
+/// Geometric means of the errors of both wavelet transforms over the rates of the prefixes table,
+/// relative to the diagonal; both 0 if only one was tried.
+struct TransformErrors {
+  double local = 0;
+  double mirror = 0;
+};
+
 /// Results of a conversion. Lengths are in the input's unit unless they are called relative.
 struct ConvertReport {
   std::string input;
@@ -106,6 +113,9 @@ struct ConvertReport {
   /// Of the details that lead to level 1, 2, ...
   std::vector<LevelDetails> level_details;
 
+  /// The wavelet transform: local or mirror.
+  std::string transform;
+  TransformErrors transform_errors;
   /// Of the glTF file's payload and of the elementary stream; as made if that was not written.
   ReachedTargets payload_targets, stream_targets;
   std::uint64_t stream_bytes = 0;
