@@ -1,6 +1,8 @@
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "cli/commands.h"
 #include "cli/quantities.h"
@@ -19,6 +21,19 @@ struct ConvertArguments {
   std::string fill_holes;
   std::string remove_handles;
 };
+
+void print_targets(const char* what, const report::ReachedTargets& targets) {
+  if (targets.max_error > 0)
+    std::printf("  %s: asked for an error of %.4g, reached %.4g with %llu bytes\n", what,
+                targets.max_error, targets.reached_error,
+                static_cast<unsigned long long>(targets.reached_size));
+  if (targets.size > 0)
+    std::printf("  %s: allowed %llu bytes, used %llu with an error of %.4g\n", what,
+                static_cast<unsigned long long>(targets.size),
+                static_cast<unsigned long long>(targets.reached_size), targets.reached_error);
+  if (targets.size > 0 && targets.max_error == 0 && targets.is_whole_stream)
+    std::printf("  %s: that is all there is, with the finest step that makes sense\n", what);
+}
 
 void print_summary(const ConvertArguments& arguments, const report::ConvertReport& report) {
   std::printf("%s: %llu vertices, %llu faces -> base of %llu vertices, %d levels\n",
@@ -39,7 +54,12 @@ void print_summary(const ConvertArguments& arguments, const report::ConvertRepor
   std::printf(
       "  remesh error %.2f, discretisation error of the input %.2f (1e-5 of the diagonal)\n",
       report.remeshing_error * 1e5, report.discretisation_error * 1e5);
+  if (report.transform_errors.local > 0)
+    std::printf("  transform %s: mean error local %.4g, mirror %.4g\n", report.transform.c_str(),
+                report.transform_errors.local, report.transform_errors.mirror);
   if (!report.remesh_remark.empty()) std::printf("  note: %s\n", report.remesh_remark.c_str());
+  if (report.stream_bytes > 0) print_targets("stream", report.stream_targets);
+  if (report.payload_bytes > 0) print_targets("glTF file", report.payload_targets);
   const auto& prefixes =
       arguments.options.glb.empty() ? report.stream_prefixes : report.payload_prefixes;
   std::printf("  %12s  %10s  %s\n", "bytes", "bits/vert", "error (1e-4 of the diagonal)");
@@ -107,9 +127,20 @@ void add_convert(CLI::App& app, int& exit_code) {
       "--remove-handles", arguments->remove_handles,
       "Cut handles and tunnels with a closed path shorter than this around them: 0.02, 3mm");
   command->add_option("--max-error", arguments->max_error,
-                      "End the stream where the measured error is at most this: 1e-4, 0.5mm");
-  command->add_option("--target-size", options.target_size, "Largest output file: 200000, 200kB")
+                      "The shortest stream whose measured error is at most this: 1e-4, 0.5mm");
+  command->add_option("--target-size", options.target_size, "The best output of at most this size, for each of -o (with --split: its "
+                      "files together) and --stream: 200000, 200kB")
       ->transform(CLI::AsSizeValue(true));
+  const std::map<std::string, convert::TransformChoice> transforms{
+      {"auto", convert::TransformChoice::automatic},
+      {"local", convert::TransformChoice::local},
+      {"mirror", convert::TransformChoice::mirror}};
+  command
+      ->add_option("--transform", options.transform,
+                   "Wavelets: local, mirror (slower), auto: the better one by measured error "
+                   "[local]")
+      ->transform(CLI::CheckedTransformer(transforms))
+      ->type_name("auto|local|mirror");
   command->add_option("--threads", options.threads, "Threads [one per core]")
       ->check(CLI::Range(1, 1024));
   command->add_option("--memory-limit", options.memory_limit, "Most memory to use: 4GiB")

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "convert/transform_choice.h"
 #include "decode/prefix_surface.h"
 #include "decode/stream_file.h"
 
@@ -15,6 +16,8 @@ void print_header(const bitstream::StreamHeader& header, double scale) {
               header.face_count, header.external_base ? "in the glTF accessors" : "embedded",
               header.has_sharp_tags ? ", with creases or corners" : "");
   std::printf("  levels         %d\n", header.levels);
+  std::printf("  transform      %s\n",
+              convert::transform_name(static_cast<surface::WaveletTransform>(header.transform)));
   std::printf("  bit planes     %d, finest step %g, tangential x %d\n", header.planes,
               scale * static_cast<double>(header.finest_step), 1 << header.tangent_ratio_log2);
   if (!header.external_base)

@@ -5,40 +5,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "analysis/local_details.h"
-#include "convert/base_grid.h"
 #include "convert/debug_pictures.h"
+#include "convert/encoded_outputs.h"
 #include "convert/limit_mesh.h"
-#include "convert/measured_stream.h"
 #include "convert/output_files.h"
-#include "convert/prefix_table.h"
+#include "convert/prefix_errors.h"
 #include "convert/requested_repairs.h"
 #include "convert/surface_model.h"
-#include "decode/prefix_surface.h"
+#include "convert/transform_choice.h"
 #include "discretisation/discretisation_error.h"
-#include "encode/encode.h"
-#include "export/atomic_file.h"
-#include "gltf/progressive_writer.h"
 #include "import/import_mesh.h"
 #include "measure/surface_distance.h"
 #include "mesh/error.h"
 #include "report/remesh_remark.h"
 #include "report/stage_clock.h"
-#include "surface/surface_synthesis.h"
 
 namespace zerotree::convert {
 namespace {
 
-// Samples of each surface for the table: the RMS is good to about one percent.
+// Samples of each surface for a quick measurement: the RMS is good to about one percent, where no
+// part of the input is far from the remesh.
 constexpr std::size_t kTableSamples = 50'000;
-// The finest step in units of the remeshing error: rounding then adds less than that to it.
-constexpr double kStepPerRemeshingError = 1.0;
-// ... but never finer than this part of the diagonal, about what float positions resolve.
-constexpr double kFinestRelativeStep = 1e-7;
 // Most memory a conversion takes per input vertex, in bytes; from 100,000 vertices on it is half.
 constexpr std::uint64_t kMemoryPerVertex = 5000;
 
@@ -104,102 +95,6 @@ std::vector<report::LevelDetails> level_details(
   return levels;
 }
 
-// Limit normals of the base: what an unaware viewer shades the base with.
-std::vector<Eigen::Vector3f> base_normals(const surface::SubdivisionHierarchy& hierarchy,
-                                          const surface::Positions& base_positions) {
-  const surface::SubdivisionLevel& base = hierarchy.level(0);
-  std::vector<Eigen::Vector3f> normals(base.vertex_count);
-  surface::limit_surface(base, base_positions, {}, {normals.data(), sizeof(Eigen::Vector3f)});
-  return normals;
-}
-
-decode::StreamFile encode_model(const SurfaceModel& model,
-                                const analysis::WaveletDecomposition& wavelets, double finest_step,
-                                bool embed_base) {
-  encode::EncodeOptions options;
-  options.finest_step = finest_step;
-  options.embed_base = embed_base;
-  encode::EncodedStream encoded = encode::encode(*model.hierarchy, wavelets, options);
-  decode::StreamFile file;
-  file.bytes = std::move(encoded.bytes);
-  file.external_base = !embed_base;
-  file.base = model.base;
-  file.levels = model.hierarchy->levels();
-  file.base_positions = std::move(encoded.base_positions);
-  return file;
-}
-
-// For glTF: bound to the base of the accessors, which lies on a grid if it is to be compressed.
-decode::StreamFile encode_payload(const SurfaceModel& model,
-                                  const analysis::WaveletDecomposition& wavelets,
-                                  double finest_step, const ConvertOptions& options) {
-  if (!options.compress_base) return encode_model(model, wavelets, finest_step, false);
-  const gltf::Placement grid = grid_for(wavelets.base_control_points);
-  decode::StreamFile file =
-      encode_model(model, on_grid(wavelets, grid), finest_step / grid.scale, false);
-  file.placement = grid;
-  return file;
-}
-
-gltf::ProgressiveAsset measure_asset(const SurfaceModel& model, const decode::StreamFile& file,
-                                     const ConvertOptions& options, const PrefixMeasurement& how,
-                                     report::ConvertReport& report, const Progress& progress) {
-  std::vector<Eigen::Vector3f> normals;
-  if (options.base_normals) normals = base_normals(*model.hierarchy, file.base_positions);
-  const auto asset_of = [&](const MeasuredStream& payload) {
-    return make_asset(payload, model.hierarchy->levels(), how.diagonal, normals,
-                      options.input.stem().string());
-  };
-  MeasuredStream payload = cut_and_measure(file, options, 0, how, progress);
-  if (options.target_size > 0)
-    payload = cut_and_measure(
-        file, options,
-        payload_limit(asset_of(payload), {options.compress_base}, options.target_size), how,
-        progress);
-  report.payload_bytes = payload.file.bytes.size();
-  report.payload_prefixes = payload.table.prefixes;
-  return asset_of(payload);
-}
-
-void write_gltf(const std::filesystem::path& path, const gltf::ProgressiveAsset& asset,
-                const ConvertOptions& options) {
-  if (options.split)
-    gltf::write_split(path, asset, {options.compress_base});
-  else
-    gltf::write_glb(path, asset, {options.compress_base});
-}
-
-// Encodes, measures and writes both outputs. All files are made and checked before one appears.
-void write_outputs(const SurfaceModel& model, const analysis::WaveletDecomposition& wavelets,
-                   double finest_step, const ConvertOptions& options, const PrefixMeasurement& how,
-                   report::StageClock& clock, report::ConvertReport& report,
-                   const Progress& progress) {
-  std::optional<CheckedOutput> stream_output, gltf_output;
-  if (!options.stream.empty()) {
-    decode::StreamFile encoded = clock.run(
-        "encode stream", [&] { return encode_model(model, wavelets, finest_step, true); });
-    const MeasuredStream stream = clock.run("measure stream", [&] {
-      return cut_and_measure(std::move(encoded), options, options.target_size, how, progress);
-    });
-    report.stream_bytes = stream.file.bytes.size();
-    report.stream_prefixes = stream.table.prefixes;
-    stream_output.emplace(options.stream, [&](const std::filesystem::path& path) {
-      exporter::write_file_atomically(path, stream.file.bytes);
-    });
-  }
-  if (!options.glb.empty()) {
-    const decode::StreamFile encoded = clock.run(
-        "encode payload", [&] { return encode_payload(model, wavelets, finest_step, options); });
-    const gltf::ProgressiveAsset asset = clock.run("measure payload", [&] {
-      return measure_asset(model, encoded, options, how, report, progress);
-    });
-    gltf_output.emplace(
-        options.glb, [&](const std::filesystem::path& path) { write_gltf(path, asset, options); });
-  }
-  if (stream_output) stream_output->commit();
-  if (gltf_output) gltf_output->commit();
-}
-
 }  // namespace
 
 report::ConvertReport convert_file(const ConvertOptions& asked, const Progress& progress) {
@@ -222,7 +117,7 @@ report::ConvertReport convert_file(const ConvertOptions& asked, const Progress& 
                      [&] { return measure::SurfaceIndex(imported.mesh, options.threads); });
   });
   TriangleMesh cleaned;
-  const SurfaceModel model = name_input_in_errors(options.input, [&] {
+  SurfaceModel model = name_input_in_errors(options.input, [&] {
     cleaned = clean_input(imported.mesh, clock, report, progress);
     // What was asked to be changed is no error: measure against the changed surface.
     if (make_requested_repairs(cleaned, options, clock, report, progress))
@@ -234,22 +129,21 @@ report::ConvertReport convert_file(const ConvertOptions& asked, const Progress& 
     });
     return build_surface_model(cleaned, options, clock, report, progress);
   });
-  const PrefixMeasurement how = measurement_of(original, model, options, report);
+  PrefixMeasurement how = measurement_of(original, model, options, report);
   report.remeshing_error = clock.run("measure remesh", [&] { return remeshing_error(model, how); });
   report.remesh_remark = report::explain_remeshing_error(report);
-  const analysis::WaveletDecomposition wavelets = analyse_model(model, options, clock, progress);
-  const auto local_details = analysis::local_details(*model.hierarchy, wavelets);
+  const AnalysedModel analysed =
+      analyse_with_choice(std::move(model), options, how, clock, report, progress);
+  how.hierarchy = analysed.model.hierarchy;
+  const auto local_details = analysis::local_details(*how.hierarchy, analysed.wavelets);
   report.level_details = level_details(local_details, report.diagonal);
   if (!options.debug_pictures.empty())
     clock.run("pictures", [&] {
-      write_debug_pictures(options.debug_pictures, {cleaned, original, model, local_details, report},
+      write_debug_pictures(options.debug_pictures,
+                           {cleaned, original, analysed.model, local_details, report},
                            options.threads, progress);
     });
-  const double finest_step =
-      report.diagonal *
-      std::max(kStepPerRemeshingError * report.remeshing_error, kFinestRelativeStep);
-
-  write_outputs(model, wavelets, finest_step, options, how, clock, report, progress);
+  write_outputs(analysed, options, how, clock, report, progress);
   if (!options.glb.empty()) report.file_bytes = std::filesystem::file_size(options.glb);
   report.stages = clock.costs();
   return report;

@@ -9,6 +9,13 @@
 
 namespace zerotree::convert {
 
+/// Wavelet transforms to choose from.
+enum class TransformChoice {
+  local,      ///< surface::WaveletTransform::loop_local
+  mirror,     ///< surface::WaveletTransform::loop_quadrature_mirror; slow to make
+  automatic,  ///< the one with the smaller measured errors; takes both and two measurements
+};
+
 /// What to convert and how. Paths that are empty are not written; at least one of `glb` and
 /// `stream` must be named.
 struct ConvertOptions {
@@ -40,12 +47,14 @@ struct ConvertOptions {
   double remove_handles = 0;
   /// The same in metres; 0: not given.
   double remove_handles_metres = 0;
-  /// Cut the stream where the measured error first is at most this (relative); 0: no cut.
+  /// Cut each stream to the shortest whose measured error is at most this (relative); 0: no cut.
   double max_error = 0;
   /// The same in metres, taken relative to the diagonal once that is known; 0: not given.
   double max_error_metres = 0;
-  /// Largest size of each file written, in bytes; 0: no limit.
+  /// Largest size in bytes of the stream's file and of the glTF file, with `split` all its files
+  /// together; 0: no limit.
   std::uint64_t target_size = 0;
+  TransformChoice transform = TransformChoice::local;
   /// Threads to use; 0: one per core.
   int threads = 0;
   /// Refuse inputs that would need more memory than this, in bytes; 0: no limit.

@@ -1,11 +1,9 @@
 #include "convert/measured_stream.h"
 
-#include <algorithm>
-#include <string>
 #include <utility>
 
 #include "convert/short_decimal.h"
-#include "mesh/error.h"
+#include "gltf/progressive_writer.h"
 
 namespace zerotree::convert {
 namespace {
@@ -14,10 +12,6 @@ constexpr int kErrorDigits = 3;
 constexpr int kMostErrorDigits = 7;
 // Of the diagonal: how far rounding may move a side of the bounds.
 constexpr double kBoundsStep = 0.002;
-
-double relative_max_error(const ConvertOptions& options, double diagonal) {
-  return options.max_error_metres > 0 ? options.max_error_metres / diagonal : options.max_error;
-}
 
 // Three digits say all that measuring by samples knows, but the file must not state a larger error
 // than the one that was asked for and reached.
@@ -45,28 +39,6 @@ void set_bounds(const Eigen::AlignedBox3f& box, const gltf::Placement& placement
 
 }  // namespace
 
-MeasuredStream cut_and_measure(decode::StreamFile file, const ConvertOptions& options,
-                               std::uint64_t size_limit, const PrefixMeasurement& how,
-                               const Progress& progress) {
-  const double max_error = relative_max_error(options, how.diagonal);
-  if (max_error > 0) file.bytes.resize(shortest_prefix(file, max_error, how, progress));
-  if (size_limit > 0 && file.bytes.size() > size_limit) {
-    if (max_error > 0)
-      throw Error(ExitCode::target_not_reachable,
-                  "the error asked for takes " + std::to_string(file.bytes.size()) +
-                      " bytes of stream, " + std::to_string(size_limit) +
-                      " are allowed: raise --target-size or --max-error");
-    file.bytes.resize(size_limit);
-  }
-  PrefixTable table = measure_prefixes(file, how, progress);
-  if (table.prefixes.empty())
-    throw Error(ExitCode::target_not_reachable,
-                "--target-size: " + std::to_string(size_limit) +
-                    " bytes do not even hold the base mesh: allow more, or ask for fewer "
-                    "--base-vertices");
-  return {std::move(file), std::move(table), max_error};
-}
-
 gltf::ProgressiveAsset make_asset(const MeasuredStream& payload, int levels, double diagonal,
                                   const std::vector<Eigen::Vector3f>& normals,
                                   const std::string& name) {
@@ -91,16 +63,6 @@ gltf::ProgressiveAsset make_asset(const MeasuredStream& payload, int levels, dou
   asset.prefixes = gltf::monotone_prefixes(std::move(entries));
   set_bounds(payload.table.bounds, asset.placement, asset);
   return asset;
-}
-
-std::uint64_t payload_limit(const gltf::ProgressiveAsset& asset, const gltf::WriteOptions& how,
-                            std::uint64_t file_size) {
-  const std::uint64_t overhead = gltf::glb_bytes(asset, how).size() - asset.payload.size();
-  if (overhead >= file_size)
-    throw Error(ExitCode::target_not_reachable,
-                "--target-size: the base mesh alone makes a file of " + std::to_string(overhead) +
-                    " bytes: allow more, or ask for fewer --base-vertices");
-  return file_size - overhead;
 }
 
 }  // namespace zerotree::convert

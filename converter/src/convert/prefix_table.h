@@ -1,32 +1,15 @@
-// Errors of prefixes, measured by decoding real truncated streams.
+// The table of a stream's prefixes: how far the surface of each lies from the original.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
-#include <Eigen/Geometry>
-
-#include "decode/stream_file.h"
-#include "measure/surface_distance.h"
+#include "convert/prefix_errors.h"
 #include "mesh/progress.h"
 #include "report/convert_report.h"
-#include "surface/subdivision_hierarchy.h"
 
 namespace zerotree::convert {
-
-/// What prefixes are measured against, and how.
-struct PrefixMeasurement {
-  /// The original input, whose diagonal errors are relative to.
-  const measure::SurfaceIndex& original;
-  measure::DistanceOptions distance;
-  /// Vertices of the original input: rates are bits per vertex of it.
-  std::uint64_t original_vertices;
-  /// Bounding box diagonal of the original.
-  double diagonal;
-  /// Topology of the base and its levels.
-  std::shared_ptr<const surface::SubdivisionHierarchy> hierarchy;
-};
 
 /// The table of a stream, and a box around the surfaces of its prefixes: that of the prefixes in
 /// the table, widened by a margin for those between them.
@@ -35,14 +18,13 @@ struct PrefixTable {
   Eigen::AlignedBox3f bounds;
 };
 
-/// Decodes and measures the prefixes of `stream` of 1/4, 1/2, ... 8 bits per vertex and the whole
-/// of it. A prefix that ends before the base is known is left out.
-PrefixTable measure_prefixes(const decode::StreamFile& stream, const PrefixMeasurement& how,
-                             const Progress& progress);
+/// The lengths a table has for a stream of `stream_bytes` bytes: those of 1/4, 1/2, ... 8 bits per
+/// vertex that are shorter, and the whole.
+std::vector<std::uint64_t> table_lengths(std::uint64_t stream_bytes, std::uint64_t vertices);
 
-/// Length of the shortest prefix found by bisection whose measured error is at most `max_error`
-/// (relative). Throws Error(target_not_reachable) if that of the whole stream is larger.
-std::uint64_t shortest_prefix(const decode::StreamFile& stream, double max_error,
-                              const PrefixMeasurement& how, const Progress& progress);
+/// The table of the first `stream_bytes` bytes of a stream. The last entry, which is what the file
+/// reaches, is as exact as `last`. A prefix that ends before the base is known is left out.
+PrefixTable measure_prefixes(PrefixErrors& errors, std::uint64_t stream_bytes, Precision last,
+                             const Progress& progress);
 
 }  // namespace zerotree::convert

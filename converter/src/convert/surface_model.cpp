@@ -14,8 +14,6 @@
 namespace zerotree::convert {
 namespace {
 
-constexpr auto kTransform = surface::WaveletTransform::loop_local;
-
 void note_clean(const clean::CleanMesh& cleaned, report::ConvertReport& report) {
   for (const auto& [what, count] : clean::list_repairs(cleaned.report))
     report.repairs.push_back({what, count});
@@ -124,8 +122,11 @@ SurfaceModel build_surface_model(const TriangleMesh& mesh, const ConvertOptions&
   model.control_points = std::move(remeshed.control_points);
   model.relaxed = std::move(remeshed.relaxed);
   model.hierarchy = clock.run("topology", [&] {
+    const auto transform = options.transform == TransformChoice::mirror
+                               ? surface::WaveletTransform::loop_quadrature_mirror
+                               : surface::WaveletTransform::loop_local;
     return std::make_shared<const surface::SubdivisionHierarchy>(model.base, remeshed.levels,
-                                                                 kTransform);
+                                                                 transform);
   });
   return model;
 }
@@ -134,7 +135,7 @@ analysis::WaveletDecomposition analyse_model(const SurfaceModel& model,
                                              const ConvertOptions& options,
                                              report::StageClock& clock, const Progress& progress) {
   analysis::AnalysisOptions analysis_options;
-  analysis_options.transform = kTransform;
+  analysis_options.transform = model.hierarchy->transform();
   analysis_options.threads = options.threads;
   return clock.run("analysis", [&] {
     return analysis::analyse(*model.hierarchy, model.control_points, analysis_options, progress);

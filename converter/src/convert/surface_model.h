@@ -19,7 +19,7 @@ namespace zerotree::convert {
 /// A surface ready to be encoded.
 struct SurfaceModel {
   bitstream::BaseTopology base;
-  /// All levels over `base`.
+  /// All levels over `base`, for the transform asked for; for the local one if none is.
   std::shared_ptr<const surface::SubdivisionHierarchy> hierarchy;
   /// Of the finest level, before quantisation.
   std::vector<Eigen::Vector3d> control_points;
@@ -36,7 +36,7 @@ SurfaceModel build_surface_model(const TriangleMesh& mesh, const ConvertOptions&
                                  report::StageClock& clock, report::ConvertReport& report,
                                  const Progress& progress);
 
-/// The wavelets of the model's control points.
+/// The wavelets of the model's control points by the transform of its hierarchy.
 analysis::WaveletDecomposition analyse_model(const SurfaceModel& model,
                                              const ConvertOptions& options,
                                              report::StageClock& clock, const Progress& progress);

@@ -225,6 +225,35 @@ void append(std::vector<std::uint8_t>& bytes, std::span<const std::uint8_t> more
   bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
+struct SplitFiles {
+  BufferFiles names;
+  /// The .glb or .gltf file.
+  std::vector<std::uint8_t> head;
+  /// The base mesh beside a .gltf file.
+  std::vector<std::uint8_t> base;
+};
+
+SplitFiles split_files(const std::filesystem::path& path, const ProgressiveAsset& asset,
+                       const WriteOptions& options) {
+  const bool is_binary = path.extension() == ".glb";
+  if (!is_binary && path.extension() != ".gltf")
+    throw Error(ExitCode::usage, path.string() + ": name a .glb or .gltf file to write");
+  SplitFiles files;
+  files.names.payload = std::filesystem::path(path).replace_extension(".zt.bin");
+  if (!is_binary) files.names.base = std::filesystem::path(path).replace_extension(".bin");
+  GltfParts parts = smallest_parts(asset, options, files.names);
+  if (is_binary) {
+    files.head = glb_head(dump(parts.json), parts.base.size());
+    append(files.head, parts.base);
+    files.head.resize((files.head.size() + 3) / 4 * 4);
+  } else {
+    const std::string text = dump(parts.json, 2) + "\n";
+    files.head.assign(text.begin(), text.end());
+    files.base = std::move(parts.base);
+  }
+  return files;
+}
+
 }  // namespace
 
 std::vector<PrefixEntry> monotone_prefixes(std::vector<PrefixEntry> measured) {
@@ -256,33 +285,22 @@ void write_glb(const std::filesystem::path& path, const ProgressiveAsset& asset,
   exporter::write_file_atomically(path, glb_bytes(asset, options));
 }
 
+std::uint64_t split_size(const std::filesystem::path& path, const ProgressiveAsset& asset,
+                         const WriteOptions& options) {
+  const SplitFiles files = split_files(path, asset, options);
+  return files.head.size() + files.base.size() + asset.payload.size();
+}
+
 void write_split(const std::filesystem::path& path, const ProgressiveAsset& asset,
                  const WriteOptions& options) {
-  const bool is_binary = path.extension() == ".glb";
-  if (!is_binary && path.extension() != ".gltf")
-    throw Error(ExitCode::usage, path.string() + ": name a .glb or .gltf file to write");
-  const std::filesystem::path payload_path =
-      std::filesystem::path(path).replace_extension(".zt.bin");
-  const std::filesystem::path base_path = std::filesystem::path(path).replace_extension(".bin");
-  const BufferFiles files{is_binary ? std::filesystem::path() : base_path, payload_path};
-  const GltfParts parts = smallest_parts(asset, options, files);
-
-  std::vector<std::uint8_t> head;
-  if (is_binary) {
-    head = glb_head(dump(parts.json), parts.base.size());
-    append(head, parts.base);
-    head.resize((head.size() + 3) / 4 * 4);
-  } else {
-    const std::string text = dump(parts.json, 2) + "\n";
-    head.assign(text.begin(), text.end());
-  }
-  exporter::StagedFile payload_file(payload_path);
+  const SplitFiles files = split_files(path, asset, options);
+  exporter::StagedFile payload_file(files.names.payload);
   exporter::StagedFile gltf_file(path);
   payload_file.write(asset.payload);
-  gltf_file.write(head);
+  gltf_file.write(files.head);
   payload_file.seal();
   gltf_file.seal();
-  if (!is_binary) exporter::write_file_atomically(base_path, parts.base);
+  if (!files.names.base.empty()) exporter::write_file_atomically(files.names.base, files.base);
   payload_file.commit();
   gltf_file.commit();
 }

@@ -37,4 +37,8 @@ void write_glb(const std::filesystem::path& path, const ProgressiveAsset& asset,
 void write_split(const std::filesystem::path& path, const ProgressiveAsset& asset,
                  const WriteOptions& options = {});
 
+/// Bytes of all files that write_split makes of `asset`, together. Throws as that.
+std::uint64_t split_size(const std::filesystem::path& path, const ProgressiveAsset& asset,
+                         const WriteOptions& options = {});
+
 }  // namespace zerotree::gltf

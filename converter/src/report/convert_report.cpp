@@ -38,6 +38,28 @@ nlohmann::ordered_json levels_to_json(const std::vector<LevelDetails>& levels) {
   return json;
 }
 
+nlohmann::ordered_json transform_json(const std::string& name, const TransformErrors& errors) {
+  nlohmann::ordered_json json{{"name", name}};
+  if (errors.local > 0)
+    json["meanErrors"] = {{"local", errors.local}, {"mirror", errors.mirror}};
+  return json;
+}
+
+nlohmann::ordered_json stream_json(std::uint64_t bytes, const std::vector<PrefixError>& prefixes,
+                                   const ReachedTargets& targets) {
+  nlohmann::ordered_json json{{"bytes", bytes}, {"prefixes", prefixes_json(prefixes)}};
+  if (bytes == 0) return json;
+  nlohmann::ordered_json asked = nlohmann::ordered_json::object();
+  if (targets.max_error > 0) asked["maxError"] = targets.max_error;
+  if (targets.size > 0) asked["size"] = targets.size;
+  json["targets"] = {{"asked", std::move(asked)},
+                     {"error", targets.reached_error},
+                     {"size", targets.reached_size},
+                     {"finestStep", targets.finest_step},
+                     {"wholeStream", targets.is_whole_stream}};
+  return json;
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const ConvertReport& r) {
@@ -84,8 +106,9 @@ nlohmann::ordered_json to_json(const ConvertReport& r) {
         {"levelDetails", levels_to_json(r.level_details)},
         {"discretisationError", r.discretisation_error},
         {"remark", r.remesh_remark}}},
-      {"payload", {{"bytes", r.payload_bytes}, {"prefixes", prefixes_json(r.payload_prefixes)}}},
-      {"stream", {{"bytes", r.stream_bytes}, {"prefixes", prefixes_json(r.stream_prefixes)}}},
+      {"transform", transform_json(r.transform, r.transform_errors)},
+      {"payload", stream_json(r.payload_bytes, r.payload_prefixes, r.payload_targets)},
+      {"stream", stream_json(r.stream_bytes, r.stream_prefixes, r.stream_targets)},
       {"file", {{"bytes", r.file_bytes}}},
       {"stages", stages_json(r.stages)}};
 }

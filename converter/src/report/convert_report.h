@@ -38,6 +38,29 @@ struct LevelDetails {
   double tangential = 0;
 };
 
+/// What a stream was asked to meet and what it reached.
+struct ReachedTargets {
+  /// Relative to the diagonal; 0: none was asked for.
+  double max_error = 0;
+  /// In bytes of what is written; 0: none was asked for.
+  std::uint64_t size = 0;
+  /// Of the stream as it was cut, relative to the diagonal.
+  double reached_error = 0;
+  /// Of what is written: the .zt file, the .glb file, or with --split all files together.
+  std::uint64_t reached_size = 0;
+  /// Finest quantisation step, relative to the diagonal.
+  double finest_step = 0;
+  /// Nothing was cut off.
+  bool is_whole_stream = true;
+};
+
+/// Geometric means of the errors of both wavelet transforms over the rates of the prefixes table,
+/// relative to the diagonal; both 0 if only one was tried.
+struct TransformErrors {
+  double local = 0;
+  double mirror = 0;
+};
+
 /// Results of a conversion. Lengths are in the input's unit unless they are called relative.
 struct ConvertReport {
   std::string input;
@@ -90,6 +113,11 @@ struct ConvertReport {
   /// Of the details that lead to level 1, 2, ...
   std::vector<LevelDetails> level_details;
 
+  /// The wavelet transform: local or mirror.
+  std::string transform;
+  TransformErrors transform_errors;
+  /// Of the glTF file's payload and of the elementary stream; as made if that was not written.
+  ReachedTargets payload_targets, stream_targets;
   std::uint64_t stream_bytes = 0;
   std::uint64_t payload_bytes = 0;
   std::uint64_t file_bytes = 0;

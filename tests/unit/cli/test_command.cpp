@@ -222,6 +222,74 @@ TEST(Command, MeetsTargetsOrSaysThatItCannot) {
   EXPECT_FALSE(std::filesystem::exists(folder / "no.glb"));
 }
 
+TEST(Command, FillsTheSizeAskedForAndNeverMore) {
+  const TemporaryFolder folder;
+  write_off(folder / "in.off", bumpy_sphere());
+  for (const std::string form : {"a.glb", "b.gltf", "c.zt"}) {
+    for (const std::uint64_t size : {4000u, 9000u}) {
+      std::filesystem::create_directory(folder / "out");
+      const std::string output = folder.path / "out" / form, number = std::to_string(size);
+      const CommandResult result =
+          form == "c.zt" ? run_zerotree({"convert", folder / "in.off", "--stream", output,
+                                         "--target-size", number})
+          : form == "a.glb" ? run_zerotree({"convert", folder / "in.off", "-o", output,
+                                            "--target-size", number})
+                            : run_zerotree({"convert", folder / "in.off", "-o", output, "--split",
+                                            "--target-size", number});
+      ASSERT_EQ(result.exit_code, 0) << result.err;
+      std::uint64_t written = 0;
+      for (const auto& file : std::filesystem::directory_iterator(folder / "out"))
+        written += file.file_size();
+      EXPECT_LE(written, size) << form;
+      EXPECT_GE(written, 0.98 * static_cast<double>(size)) << form;
+      EXPECT_NE(result.out.find("used " + std::to_string(written)), std::string::npos)
+          << result.out;
+      std::filesystem::remove_all(folder / "out");
+    }
+  }
+}
+
+TEST(Command, NamesTheErrorThatCanBeReached) {
+  const TemporaryFolder folder;
+  write_off(folder / "in.off", bumpy_sphere());
+  const CommandResult error = run_zerotree(
+      {"convert", folder / "in.off", "--stream", folder / "x.zt", "--max-error", "1e-9"});
+  EXPECT_EQ(error.exit_code, 5);
+  EXPECT_NE(error.err.find("the whole stream has "), std::string::npos) << error.err;
+  const CommandResult both =
+      run_zerotree({"convert", folder / "in.off", "--stream", folder / "x.zt", "--max-error",
+                    "5e-4", "--target-size", "200"});
+  EXPECT_EQ(both.exit_code, 5);
+  EXPECT_NE(both.err.find("--target-size allows 200"), std::string::npos)
+      << both.err;
+  EXPECT_EQ(files_in(folder.path), 1u);
+}
+
+TEST(Command, MakesTheTransformAskedFor) {
+  const TemporaryFolder folder;
+  write_off(folder / "in.off", bumpy_sphere());
+  for (const std::string transform : {"local", "mirror", "auto"}) {
+    ASSERT_EQ(run_zerotree({"convert", folder / "in.off", "--stream", folder / "x.zt",
+                            "--transform", transform, "--report", folder / "r.json"})
+                  .exit_code,
+              0);
+    const nlohmann::json report = nlohmann::json::parse(std::ifstream(folder / "r.json"));
+    const std::string made = report["transform"]["name"];
+    if (transform != "auto") {
+      EXPECT_EQ(made, transform);
+    }
+    EXPECT_EQ(report["transform"].contains("meanErrors"), transform == "auto");
+    const CommandResult info = run_zerotree({"info", folder / "x.zt"});
+    EXPECT_NE(info.out.find("transform      " + made), std::string::npos) << info.out;
+    ASSERT_EQ(run_zerotree({"decode", folder / "x.zt", "-o", folder / "a.ply"}).exit_code, 0);
+    EXPECT_LT(compared_error(folder / "in.off", folder / "a.ply"), 5e-4) << transform;
+  }
+  EXPECT_EQ(run_zerotree({"convert", folder / "in.off", "--stream", folder / "x.zt", "--transform",
+                          "fourier"})
+                .exit_code,
+            2);
+}
+
 TEST(Command, RefusesWithTheRightCodeASentenceAndNoOutput) {
   const TemporaryFolder folder;
   std::ofstream(folder / "empty.off");

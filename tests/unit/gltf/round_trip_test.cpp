@@ -89,6 +89,18 @@ TEST(Writer, SpendsFewBytesOnTheRest) {
   }
 }
 
+TEST(Writer, SplitSizeIsThatOfAllFiles) {
+  const ProgressiveAsset asset = test::sample_asset(test::base_shapes()[0], 101);
+  for (const char* name : {"a.glb", "a.gltf"}) {
+    const TemporaryFolder folder;
+    write_split(folder / name, asset);
+    std::uint64_t size = 0;
+    for (const std::string& file : folder.file_names())
+      size += std::filesystem::file_size(folder / file);
+    EXPECT_EQ(split_size(folder / name, asset), size) << name;
+  }
+}
+
 TEST(Writer, LargeBasesRoundTrip) {
   const TemporaryFolder folder;
   for (int side : {15, 255}) {
