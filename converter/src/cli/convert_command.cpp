@@ -32,7 +32,7 @@ void print_targets(const char* what, const report::ReachedTargets& targets) {
                 static_cast<unsigned long long>(targets.size),
                 static_cast<unsigned long long>(targets.reached_size), targets.reached_error);
   if (targets.size > 0 && targets.max_error == 0 && targets.is_whole_stream)
-    std::printf("  %s: that is all there is, with the finest step that makes sense\n", what);
+    std::printf("  %s: that is all there is, with the finest step that makes sense or fits the format\n", what);
 }
 
 void print_summary(const ConvertArguments& arguments, const report::ConvertReport& report) {
@@ -57,6 +57,8 @@ void print_summary(const ConvertArguments& arguments, const report::ConvertRepor
   if (report.transform_errors.local > 0)
     std::printf("  transform %s: mean error local %.4g, mirror %.4g\n", report.transform.c_str(),
                 report.transform_errors.local, report.transform_errors.mirror);
+  if (!report.transform_note.empty())
+    std::printf("  transform %s: %s\n", report.transform.c_str(), report.transform_note.c_str());
   if (!report.remesh_remark.empty()) std::printf("  note: %s\n", report.remesh_remark.c_str());
   if (report.stream_bytes > 0) print_targets("stream", report.stream_targets);
   if (report.payload_bytes > 0) print_targets("glTF file", report.payload_targets);
@@ -128,9 +130,12 @@ void add_convert(CLI::App& app, int& exit_code) {
       "Cut handles and tunnels with a closed path shorter than this around them: 0.02, 3mm");
   command->add_option("--max-error", arguments->max_error,
                       "The shortest stream whose measured error is at most this: 1e-4, 0.5mm");
-  command->add_option("--target-size", options.target_size, "The best output of at most this size, for each of -o (with --split: its "
-                      "files together) and --stream: 200000, 200kB")
-      ->transform(CLI::AsSizeValue(true));
+  command
+      ->add_option("--target-size", options.target_size,
+                   "The best output of at most this size, for each of -o (with --split: its "
+                   "files together) and --stream: 200000, 200kB")
+      ->transform(CLI::AsSizeValue(true))
+      ->check(CLI::PositiveNumber);
   const std::map<std::string, convert::TransformChoice> transforms{
       {"auto", convert::TransformChoice::automatic},
       {"local", convert::TransformChoice::local},
@@ -144,7 +149,8 @@ void add_convert(CLI::App& app, int& exit_code) {
   command->add_option("--threads", options.threads, "Threads [one per core]")
       ->check(CLI::Range(1, 1024));
   command->add_option("--memory-limit", options.memory_limit, "Most memory to use: 4GiB")
-      ->transform(CLI::AsSizeValue(true));
+      ->transform(CLI::AsSizeValue(true))
+      ->check(CLI::PositiveNumber);
   command->add_option("--debug-pictures", options.debug_pictures,
                       "Folder for pictures of base, parameter lines, error and details (PNG)");
   command->callback([arguments, &exit_code] { exit_code = run_convert(*arguments); });

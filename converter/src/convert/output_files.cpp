@@ -30,6 +30,8 @@ void check_target(const fs::path& target, const fs::path& input) {
   std::error_code ignored;
   if (fs::equivalent(target, input, ignored))
     throw Error(ExitCode::usage, target.string() + ": is the input; name another output file");
+  if (fs::is_directory(target, ignored))
+    throw Error(ExitCode::usage, target.string() + ": is a folder; name a file in it");
   if (!fs::is_directory(folder_of(target), ignored))
     throw Error(ExitCode::usage, target.string() + ": its folder does not exist; make it first");
 }
@@ -60,6 +62,10 @@ void check_outputs(const ConvertOptions& options) {
   for (const fs::path& target : {options.glb, options.stream})
     if (!target.empty()) check_target(target, options.input);
   if (options.glb.empty()) return;
+  if (!options.stream.empty() &&
+      fs::absolute(options.glb).lexically_normal() == fs::absolute(options.stream).lexically_normal())
+    throw Error(ExitCode::usage,
+                options.glb.string() + ": is named for both outputs; name two files");
   const std::string extension = lower_extension(options.glb);
   if (extension != ".glb" && !(options.split && extension == ".gltf"))
     throw Error(ExitCode::usage,

@@ -13,9 +13,6 @@ namespace {
 constexpr double kResolution = 0.003;
 // An error between this part of the one asked for and that is close enough.
 constexpr double kCloseEnough = 0.997;
-// Exact measurements are not needed to tell that a quick one below this part of the error is
-// enough.
-constexpr double kClearlyEnough = 0.8;
 // Where shorter prefixes are looked at that might be exact enough too.
 constexpr double kShorter[] = {0.968, 0.976, 0.984, 0.992};
 constexpr int kMostSteps = 40, kMostRounds = 3;
@@ -78,7 +75,7 @@ std::uint64_t Search::between(std::uint64_t too_short, std::uint64_t enough) {
     if (below >= std::log(kCloseEnough)) break;
     // Errors are about a power of the length.
     double part = 0.5;
-    if (std::isfinite(above) && std::abs(same_side) < 2) {
+    if (std::isfinite(above) && above > below && std::abs(same_side) < 2) {
       const double goal = std::log((1 + kCloseEnough) / 2);
       part = std::clamp((above - goal) / (above - below), 0.02, 0.98);
     }
@@ -119,8 +116,7 @@ std::uint64_t Search::near(std::uint64_t bytes) {
 std::uint64_t shortest_prefix(PrefixErrors& errors, double max_error, const Progress& progress) {
   const std::uint64_t whole = errors.stream_bytes();
   Search search(errors, max_error, progress);
-  if (errors.error(whole, Precision::quick) > kClearlyEnough * max_error && search.exact(whole) > 1)
-    return whole;
+  if (search.exact(whole) > 1) return whole;
   std::uint64_t found = search.from_table();
   for (int round = 0; round < kMostRounds; ++round) {
     const double exact = search.exact(found);

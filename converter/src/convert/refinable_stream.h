@@ -6,6 +6,7 @@
 
 #include "convert/prefix_errors.h"
 #include "decode/stream_file.h"
+#include "encode/header_writer.h"
 
 namespace zerotree::convert {
 
@@ -26,7 +27,7 @@ class RefinableStream {
   const decode::StreamFile& file() const { return *file_; }
   /// Of the current stream.
   PrefixErrors& errors() { return *errors_; }
-  double step() const { return step_; }
+  double step() const { return encode::storable_step(step_); }
 
  private:
   void take(decode::StreamFile file, double step);

@@ -15,8 +15,6 @@ namespace {
 constexpr double kLeastGain = 0.002;
 // An error so far below the remesh's is out of reach of any step, however that was measured.
 constexpr double kHopelessShare = 0.7;
-// A quick measurement below this part of the error asked for needs no exact one.
-constexpr double kClearlyEnough = 0.8;
 // Part of a size that may be left unused where the JSON's length depends on the payload's.
 constexpr double kUnusedShare = 0.002;
 // The table's last error is measured again at the end and may take more digits then.
@@ -52,7 +50,6 @@ void reach_error(RefinableStream& stream, double asked, double remeshing_error) 
   double before = std::numeric_limits<double>::infinity();
   for (;;) {
     const std::uint64_t whole = stream.file().bytes.size();
-    if (stream.errors().error(whole, Precision::quick) < kClearlyEnough * asked) return;
     const double error = stream.errors().error(whole, Precision::exact);
     if (error <= asked) return;
     const bool is_hopeless = asked < kHopelessShare * remeshing_error;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "convert/prefix_table.h"
+#include "mesh/error.h"
 
 namespace zerotree::convert {
 namespace {
@@ -79,10 +80,16 @@ AnalysedModel analyse_with_choice(SurfaceModel model, const ConvertOptions& opti
   AnalysedModel result;
   if (options.transform == TransformChoice::automatic) {
     Candidate local = measure(analyse(WaveletTransform::loop_local, model));
-    Candidate mirror = measure(analyse(WaveletTransform::loop_quadrature_mirror, std::move(model)));
-    report.transform_errors = mean_errors(local.prefixes, mirror.prefixes);
-    const bool mirror_wins = report.transform_errors.mirror < report.transform_errors.local;
-    result = std::move((mirror_wins ? mirror : local).analysed);
+    try {
+      Candidate mirror =
+          measure(analyse(WaveletTransform::loop_quadrature_mirror, std::move(model)));
+      report.transform_errors = mean_errors(local.prefixes, mirror.prefixes);
+      if (report.transform_errors.mirror < report.transform_errors.local) local = std::move(mirror);
+    } catch (const Error& error) {
+      // Its analysis need not converge on a base of odd valences; the other one is there already.
+      report.transform_note = std::string("mirror could not be tried: ") + error.what();
+    }
+    result = std::move(local.analysed);
   } else {
     result = analyse(options.transform == TransformChoice::mirror
                          ? WaveletTransform::loop_quadrature_mirror

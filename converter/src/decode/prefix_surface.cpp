@@ -56,8 +56,8 @@ void PrefixSurface::require_surface() const {
   if (!has_surface())
     throw Error(ExitCode::unreadable_input,
                 "more bytes wanted: the first " + std::to_string(fed_) +
-                    " bytes end before the connectivity of the base mesh does; take a longer "
-                    "prefix");
+                    " bytes end before the connectivity and creases of the base mesh do; take a "
+                    "longer prefix");
 }
 
 int PrefixSurface::automatic_level() {

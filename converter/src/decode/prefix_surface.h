@@ -28,7 +28,7 @@ class PrefixSurface {
   /// As deep as the decoded details reach, and where the limit surface looks smooth.
   int automatic_level();
   /// The stream holds enough for a surface: an external base always does, an embedded one once its
-  /// connectivity is known.
+  /// connectivity and sharp tags are known.
   bool has_surface() const;
   /// Limit positions, put in place, and normals at `level`, 0 to the stream's levels; at
   /// `automatic_level` if empty. Without a header, of an external base, it is the smooth surface of

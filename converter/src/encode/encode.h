@@ -15,8 +15,8 @@ namespace zerotree::encode {
 
 struct EncodeOptions {
   /// Quantisation step of a normal detail of the finest level, in the unit of the input. Details of
-  /// coarser levels have a step shorter by their basis function's norm. The stream holds three
-  /// digits of it: it is rounded down by up to 0.8 %.
+  /// coarser levels have a step shorter by their basis function's norm. The stream holds eight
+  /// bits of its digits: it is rounded down by up to 0.8 %.
   double finest_step = 0.0;
   /// Tangential details have a step 2^this times as long: 2 for scans, 3 for CAD-like models.
   int tangent_ratio_log2 = 2;

@@ -202,6 +202,8 @@ ViewBytes GltfDocument::unpacked_bytes(const JsonCursor& index) {
   const JsonCursor view = this->view(index);
   const JsonCursor packing = packing_of(view);
   if (!packing.exists()) return view_bytes(index);
+  if (!lists("extensionsUsed", kPackingExtension))
+    packing.fail(IssueCode::packing_broken, "extensionsUsed does not name the extension");
   const std::uint64_t number = index.unsigned_integer();
   if (!unpacked_.contains(number)) {
     // One at a time: many views may name the same few bytes, and each takes 64 times as much.
@@ -229,6 +231,11 @@ GltfDocument::Elements GltfDocument::elements(const JsonCursor& accessor,
   const std::uint64_t count = accessor.member("count").unsigned_integer();
   const ViewBytes view = unpacked_bytes(accessor.member("bufferView"));
   const std::uint64_t stride = view.stride == 0 ? element_size : view.stride;
+  const JsonCursor packing = packing_of(this->view(accessor.member("bufferView")));
+  if (packing.exists() && packing.member("byteStride").unsigned_integer() != stride)
+    packing.member("byteStride")
+        .fail(IssueCode::packing_broken,
+              "the accessor's elements lie " + std::to_string(stride) + " bytes apart");
   if (count == 0) accessor.member("count").fail(IssueCode::property_value, "it is 0");
   if (stride < element_size)
     accessor.fail(IssueCode::accessor_unsupported, "its elements overlap: see byteStride");
@@ -244,12 +251,17 @@ GltfDocument::Elements GltfDocument::elements(const JsonCursor& accessor,
   return {view.available.subspan(offset), count, stride};
 }
 
+bool GltfDocument::lists(const char* list, const char* extension) const {
+  const JsonCursor names = root().member(list);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names.element(i).string() == extension) return true;
+  return false;
+}
+
 void GltfDocument::require_quantisation(const JsonCursor& accessor) const {
-  const JsonCursor required = root().member("extensionsRequired");
-  for (std::size_t i = 0; i < required.size(); ++i)
-    if (required.element(i).string() == kQuantisationExtension) return;
-  accessor.fail(IssueCode::accessor_unsupported,
-                "integers need KHR_mesh_quantization among extensionsRequired");
+  if (!lists("extensionsRequired", kQuantisationExtension))
+    accessor.fail(IssueCode::accessor_unsupported,
+                  "integers need KHR_mesh_quantization among extensionsRequired");
 }
 
 std::vector<Eigen::Vector3f> GltfDocument::read_vectors(const JsonCursor& index) {

@@ -60,6 +60,7 @@ class GltfDocument {
   ViewBytes unpacked_bytes(const JsonCursor& index);
   Elements elements(const JsonCursor& accessor, std::uint64_t element_size);
   JsonCursor view(const JsonCursor& index) const;
+  bool lists(const char* list, const char* extension) const;
   void require_quantisation(const JsonCursor& accessor) const;
   std::vector<std::uint8_t> load_uri(const JsonCursor& uri) const;
 

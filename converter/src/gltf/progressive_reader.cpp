@@ -12,6 +12,8 @@ namespace zerotree::gltf {
 namespace {
 
 constexpr std::uint64_t kTriangles = 4;
+// More than a decoder with its usual limits can take.
+constexpr std::size_t kMostBaseTriangles = std::size_t{1} << 24;
 constexpr std::array<std::string_view, 8> kProperties = {"attributes", "bounds",   "bufferView",
                                                          "levels",     "prefixes", "sourceDiagonal",
                                                          "extensions", "extras"};
@@ -174,6 +176,10 @@ void read_base(GltfDocument& document, const JsonCursor& mesh, ProgressiveAsset&
       if (index >= asset.base.vertex_count)
         place.fail(IssueCode::base_index_out_of_range, "vertex " + std::to_string(index) + " of " +
                                                            std::to_string(asset.base.vertex_count));
+    // Many primitives may name the same few bytes.
+    if (asset.base.triangles.size() + indices.size() / 3 > kMostBaseTriangles)
+      place.fail(IssueCode::base_unsupported,
+                 "the base has more than " + std::to_string(kMostBaseTriangles) + " triangles");
     for (std::size_t k = 0; k < indices.size(); k += 3)
       asset.base.triangles.push_back({indices[k], indices[k + 1], indices[k + 2]});
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -235,8 +236,11 @@ struct SplitFiles {
 
 SplitFiles split_files(const std::filesystem::path& path, const ProgressiveAsset& asset,
                        const WriteOptions& options) {
-  const bool is_binary = path.extension() == ".glb";
-  if (!is_binary && path.extension() != ".gltf")
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const bool is_binary = extension == ".glb";
+  if (!is_binary && extension != ".gltf")
     throw Error(ExitCode::usage, path.string() + ": name a .glb or .gltf file to write");
   SplitFiles files;
   files.names.payload = std::filesystem::path(path).replace_extension(".zt.bin");

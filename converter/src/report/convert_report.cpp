@@ -38,10 +38,12 @@ nlohmann::ordered_json levels_to_json(const std::vector<LevelDetails>& levels) {
   return json;
 }
 
-nlohmann::ordered_json transform_json(const std::string& name, const TransformErrors& errors) {
+nlohmann::ordered_json transform_json(const std::string& name, const TransformErrors& errors,
+                                     const std::string& note) {
   nlohmann::ordered_json json{{"name", name}};
   if (errors.local > 0)
     json["meanErrors"] = {{"local", errors.local}, {"mirror", errors.mirror}};
+  if (!note.empty()) json["note"] = note;
   return json;
 }
 
@@ -106,7 +108,7 @@ nlohmann::ordered_json to_json(const ConvertReport& r) {
         {"levelDetails", levels_to_json(r.level_details)},
         {"discretisationError", r.discretisation_error},
         {"remark", r.remesh_remark}}},
-      {"transform", transform_json(r.transform, r.transform_errors)},
+      {"transform", transform_json(r.transform, r.transform_errors, r.transform_note)},
       {"payload", stream_json(r.payload_bytes, r.payload_prefixes, r.payload_targets)},
       {"stream", stream_json(r.stream_bytes, r.stream_prefixes, r.stream_targets)},
       {"file", {{"bytes", r.file_bytes}}},

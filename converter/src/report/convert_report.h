@@ -115,6 +115,8 @@ struct ConvertReport {
 
   /// The wavelet transform: local or mirror.
   std::string transform;
+  /// Why both transforms could not be compared; empty if they were or need not be.
+  std::string transform_note;
   TransformErrors transform_errors;
   /// Of the glTF file's payload and of the elementary stream; as made if that was not written.
   ReachedTargets payload_targets, stream_targets;

@@ -15,7 +15,7 @@ PositionPlanes::PositionPlanes(const BaseTopology& base, int bits)
     for (const std::uint32_t v : t) ring_begin_[v + 1] += 2;
   }
   for (std::size_t v = 0; v < base.vertex_count; ++v) ring_begin_[v + 1] += ring_begin_[v];
-  std::vector<std::uint32_t> end(ring_begin_.begin(), ring_begin_.end() - 1);
+  std::vector<std::size_t> end(ring_begin_.begin(), ring_begin_.end() - 1);
   for (const auto& t : base.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       ring_[end[t[k]]++] = t[(k + 1) % 3];
@@ -26,10 +26,10 @@ PositionPlanes::PositionPlanes(const BaseTopology& base, int bits)
 
 PositionPlanes::Pull PositionPlanes::neighbours_pull(std::size_t coordinate) const {
   const std::size_t vertex = coordinate / 3, axis = coordinate % 3;
-  const std::int64_t count = ring_begin_[vertex + 1] - ring_begin_[vertex];
+  const auto count = static_cast<std::int64_t>(ring_begin_[vertex + 1] - ring_begin_[vertex]);
   if (count == 0) return {};
   std::int64_t excess = -count * values_[coordinate];
-  for (std::uint32_t i = ring_begin_[vertex]; i < ring_begin_[vertex + 1]; ++i) {
+  for (std::size_t i = ring_begin_[vertex]; i < ring_begin_[vertex + 1]; ++i) {
     excess += values_[std::size_t{ring_[i]} * 3 + axis];
   }
   return {std::abs(excess) / count, excess < 0};

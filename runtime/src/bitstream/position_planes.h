@@ -79,7 +79,7 @@ class PositionPlanes {
   std::size_t next_ = 0;
   std::vector<std::int32_t> values_;
   // Neighbours of vertex v: ring_[ring_begin_[v]] .. ring_[ring_begin_[v + 1]], two per triangle.
-  std::vector<std::uint32_t> ring_begin_;
+  std::vector<std::size_t> ring_begin_;
   std::vector<std::uint32_t> ring_;
   std::int64_t spread_ = 0;  // mean distance of late between a coordinate and its neighbours' mean
   std::array<AdaptiveBit, kStrengths> contexts_;  // by how strongly the neighbours pull

@@ -249,6 +249,23 @@ TEST(Command, FillsTheSizeAskedForAndNeverMore) {
   }
 }
 
+TEST(Command, RefusesOutputsAndSizesThatMeanNothing) {
+  const TemporaryFolder folder;
+  write_off(folder / "in.off", bumpy_sphere());
+  std::filesystem::create_directory(folder / "folder.glb");
+  const auto code = [&](std::vector<std::string> options) {
+    std::vector<std::string> arguments{"convert", folder / "in.off"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return run_zerotree(arguments).exit_code;
+  };
+  EXPECT_EQ(code({"-o", folder / "a.glb", "--target-size", "0"}), 2);
+  EXPECT_EQ(code({"-o", folder / "a.glb", "--memory-limit", "0"}), 2);
+  EXPECT_EQ(code({"-o", folder / "folder.glb", "--stream", folder / "a.zt"}), 2);
+  EXPECT_EQ(code({"-o", folder / "a.glb", "--stream", folder / "./a.glb"}), 2);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.glb"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.zt"));
+}
+
 TEST(Command, NamesTheErrorThatCanBeReached) {
   const TemporaryFolder folder;
   write_off(folder / "in.off", bumpy_sphere());

@@ -62,7 +62,7 @@ TEST(StreamTargets, MeetAnErrorWithTheShortestPrefix) {
                                       Precision::exact),
                 asked)
           << part;
-    EXPECT_EQ(reached.finest_step < kStep, asked < 1e-3);
+    EXPECT_EQ(reached.finest_step < 0.75 * kStep, asked < 1e-3);
   }
 }
 
@@ -88,7 +88,8 @@ TEST(StreamTargets, TellOfASizeThatNothingFills) {
   const MeasuredStream result = cut(stream, {0, 1'000'000}, reached);
   EXPECT_TRUE(reached.is_whole_stream);
   EXPECT_EQ(result.file.bytes.size(), stream.file().bytes.size());
-  EXPECT_NEAR(reached.finest_step, kStep / 2, 1e-9);
+  // As the stream holds it: rounded down by up to 0.8 %.
+  EXPECT_NEAR(reached.finest_step, kStep / 2, 0.004 * kStep);
 }
 
 TEST(StreamTargets, HoldBothOrSayWhatTheSizeReaches) {

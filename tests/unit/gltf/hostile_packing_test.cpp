@@ -110,6 +110,22 @@ TEST(HostilePacking, IntegersNeedTheirExtension) {
 }
 
 // Each value of the document, replaced by values of other types and sizes, one at a time.
+TEST(HostilePacking, TheExtensionMustBeNamed) {
+  EXPECT_EQ(refusal([](json& root) { root["extensionsUsed"] = {kExtensionName}; }),
+            "PACKING_BROKEN");
+}
+
+TEST(HostilePacking, TheStrideMustBeTheAccessors) {
+  EXPECT_EQ(refusal([](json& root) {
+              json& triangles = packing(root, 1);
+              const int stride = triangles["byteStride"];
+              triangles["byteStride"] = 6 - stride;
+              root["bufferViews"][1]["byteLength"] =
+                  triangles["count"].get<int>() * (6 - stride);
+            }),
+            "PACKING_BROKEN");
+}
+
 TEST(HostilePacking, EveryValueIsReadOrRefused) {
   const json whole = json::parse(split_glb(compressed_file()).json).flatten();
   const std::vector<json> replacements = {
