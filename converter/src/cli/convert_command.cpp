@@ -32,7 +32,9 @@ void print_targets(const char* what, const report::ReachedTargets& targets) {
                 static_cast<unsigned long long>(targets.size),
                 static_cast<unsigned long long>(targets.reached_size), targets.reached_error);
   if (targets.size > 0 && targets.max_error == 0 && targets.is_whole_stream)
-    std::printf("  %s: that is all there is, with the finest step that makes sense or fits the format\n", what);
+    std::printf(
+        "  %s: that is all there is, with the finest step that makes sense or fits the format\n",
+        what);
 }
 
 void print_summary(const ConvertArguments& arguments, const report::ConvertReport& report) {

@@ -62,8 +62,8 @@ void check_outputs(const ConvertOptions& options) {
   for (const fs::path& target : {options.glb, options.stream})
     if (!target.empty()) check_target(target, options.input);
   if (options.glb.empty()) return;
-  if (!options.stream.empty() &&
-      fs::absolute(options.glb).lexically_normal() == fs::absolute(options.stream).lexically_normal())
+  if (!options.stream.empty() && fs::absolute(options.glb).lexically_normal() ==
+                                     fs::absolute(options.stream).lexically_normal())
     throw Error(ExitCode::usage,
                 options.glb.string() + ": is named for both outputs; name two files");
   const std::string extension = lower_extension(options.glb);

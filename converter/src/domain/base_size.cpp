@@ -162,8 +162,8 @@ std::uint32_t fixed_base_size(const std::vector<ComponentCounts>& components) {
   return sum;
 }
 
-std::uint32_t automatic_base_size(const std::vector<ComponentCounts>& components,
-                                  double complexity, const AccuracyGoal& goal) {
+std::uint32_t automatic_base_size(const std::vector<ComponentCounts>& components, double complexity,
+                                  const AccuracyGoal& goal) {
   DomainReport topology;
   sum_topology(components, topology);
   std::uint32_t vertices = 0;

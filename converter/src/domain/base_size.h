@@ -36,8 +36,8 @@ std::uint32_t fixed_base_size(const std::vector<ComponentCounts>& components);
 /// than `finest_face_limit`, and the base is made as large as that depth allows; but no larger than
 /// the shape asks for where an error well above the discretisation error will do, because such a
 /// file is small and its base a large part of it.
-std::uint32_t automatic_base_size(const std::vector<ComponentCounts>& components,
-                                  double complexity, const AccuracyGoal& goal);
+std::uint32_t automatic_base_size(const std::vector<ComponentCounts>& components, double complexity,
+                                  const AccuracyGoal& goal);
 
 /// Faces of the finest mesh, at most, where features and topology leave the choice: four times
 /// those of the input, 1.5 times from 400,000 faces on, and 2000 for tiny meshes.

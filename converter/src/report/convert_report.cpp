@@ -32,17 +32,15 @@ nlohmann::ordered_json stages_json(const std::vector<StageCost>& stages) {
 nlohmann::ordered_json levels_to_json(const std::vector<LevelDetails>& levels) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const LevelDetails& level : levels)
-    json.push_back({{"level", json.size() + 1},
-                    {"normal", level.normal},
-                    {"tangential", level.tangential}});
+    json.push_back(
+        {{"level", json.size() + 1}, {"normal", level.normal}, {"tangential", level.tangential}});
   return json;
 }
 
 nlohmann::ordered_json transform_json(const std::string& name, const TransformErrors& errors,
-                                     const std::string& note) {
+                                      const std::string& note) {
   nlohmann::ordered_json json{{"name", name}};
-  if (errors.local > 0)
-    json["meanErrors"] = {{"local", errors.local}, {"mirror", errors.mirror}};
+  if (errors.local > 0) json["meanErrors"] = {{"local", errors.local}, {"mirror", errors.mirror}};
   if (!note.empty()) json["note"] = note;
   return json;
 }
@@ -65,54 +63,53 @@ nlohmann::ordered_json stream_json(std::uint64_t bytes, const std::vector<Prefix
 }  // namespace
 
 nlohmann::ordered_json to_json(const ConvertReport& r) {
-  return {
-      {"input",
-       {{"file", r.input},
-        {"format", r.format},
-        {"vertices", r.input_vertices},
-        {"faces", r.input_faces},
-        {"diagonal", r.diagonal},
-        {"notCarried", r.not_carried}}},
-      {"clean",
-       {{"repairs", repairs_json(r.repairs)},
-        {"vertices", r.clean_vertices},
-        {"faces", r.clean_faces},
-        {"components", r.components},
-        {"boundaryLoops", r.boundary_loops},
-        {"genus", r.genus}}},
-      {"holes",
-       {{"filled", r.filled_rims.size()},
-        {"facesAdded", r.filling_faces},
-        {"filledRims", r.filled_rims},
-        {"leftRims", r.left_rims}}},
-      {"handles",
-       {{"removed", r.handle_loops.size()},
-        {"genusBefore",
-         r.handle_loops.empty() ? static_cast<std::uint64_t>(r.genus) : r.genus_before},
-        {"genusAfter", r.genus},
-        {"loops", r.handle_loops}}},
-      {"base",
-       {{"vertices", r.base_vertices},
-        {"faces", r.base_faces},
-        {"creaseEdges", r.crease_edges},
-        {"corners", r.corners}}},
-      {"remesh",
-       {{"levels", r.levels},
-        {"finestVertices", r.finest_vertices},
-        {"coneSwaps", r.cone_swaps},
-        {"error", r.remeshing_error},
-        {"rejectedMoves", r.rejected_moves},
-        {"negativeTriangles", r.negative_triangles},
-        {"turnedFaces", r.turned_faces},
-        {"pinnedLimbs", r.pinned_limbs},
-        {"levelDetails", levels_to_json(r.level_details)},
-        {"discretisationError", r.discretisation_error},
-        {"remark", r.remesh_remark}}},
-      {"transform", transform_json(r.transform, r.transform_errors, r.transform_note)},
-      {"payload", stream_json(r.payload_bytes, r.payload_prefixes, r.payload_targets)},
-      {"stream", stream_json(r.stream_bytes, r.stream_prefixes, r.stream_targets)},
-      {"file", {{"bytes", r.file_bytes}}},
-      {"stages", stages_json(r.stages)}};
+  return {{"input",
+           {{"file", r.input},
+            {"format", r.format},
+            {"vertices", r.input_vertices},
+            {"faces", r.input_faces},
+            {"diagonal", r.diagonal},
+            {"notCarried", r.not_carried}}},
+          {"clean",
+           {{"repairs", repairs_json(r.repairs)},
+            {"vertices", r.clean_vertices},
+            {"faces", r.clean_faces},
+            {"components", r.components},
+            {"boundaryLoops", r.boundary_loops},
+            {"genus", r.genus}}},
+          {"holes",
+           {{"filled", r.filled_rims.size()},
+            {"facesAdded", r.filling_faces},
+            {"filledRims", r.filled_rims},
+            {"leftRims", r.left_rims}}},
+          {"handles",
+           {{"removed", r.handle_loops.size()},
+            {"genusBefore",
+             r.handle_loops.empty() ? static_cast<std::uint64_t>(r.genus) : r.genus_before},
+            {"genusAfter", r.genus},
+            {"loops", r.handle_loops}}},
+          {"base",
+           {{"vertices", r.base_vertices},
+            {"faces", r.base_faces},
+            {"creaseEdges", r.crease_edges},
+            {"corners", r.corners}}},
+          {"remesh",
+           {{"levels", r.levels},
+            {"finestVertices", r.finest_vertices},
+            {"coneSwaps", r.cone_swaps},
+            {"error", r.remeshing_error},
+            {"rejectedMoves", r.rejected_moves},
+            {"negativeTriangles", r.negative_triangles},
+            {"turnedFaces", r.turned_faces},
+            {"pinnedLimbs", r.pinned_limbs},
+            {"levelDetails", levels_to_json(r.level_details)},
+            {"discretisationError", r.discretisation_error},
+            {"remark", r.remesh_remark}}},
+          {"transform", transform_json(r.transform, r.transform_errors, r.transform_note)},
+          {"payload", stream_json(r.payload_bytes, r.payload_prefixes, r.payload_targets)},
+          {"stream", stream_json(r.stream_bytes, r.stream_prefixes, r.stream_targets)},
+          {"file", {{"bytes", r.file_bytes}}},
+          {"stages", stages_json(r.stages)}};
 }
 
 }  // namespace zerotree::report

@@ -34,8 +34,8 @@ constexpr float basis_norm(int levels_above_finest) {
 double mean_face_area(const bitstream::BaseTopology& topology, std::span<const float> positions);
 
 /// The weight of a detail whose edge has triangles of `area` where the level's mean is `mean_area`:
-/// sqrt(0.8 area / mean_area + 0.2), at most 16; 1 if that is no number. The share of the mean keeps
-/// a detail in its place while a prefix shows a triangle smaller than it will be.
+/// sqrt(0.8 area / mean_area + 0.2), at most 16; 1 if that is no number. The share of the mean
+/// keeps a detail in its place while a prefix shows a triangle smaller than it will be.
 float area_weight(double area, double mean_area);
 
 /// What a value of 2 in a `CoefficientSet` is worth: the length of the detail component of

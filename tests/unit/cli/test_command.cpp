@@ -232,10 +232,10 @@ TEST(Command, FillsTheSizeAskedForAndNeverMore) {
       const CommandResult result =
           form == "c.zt" ? run_zerotree({"convert", folder / "in.off", "--stream", output,
                                          "--target-size", number})
-          : form == "a.glb" ? run_zerotree({"convert", folder / "in.off", "-o", output,
-                                            "--target-size", number})
-                            : run_zerotree({"convert", folder / "in.off", "-o", output, "--split",
-                                            "--target-size", number});
+          : form == "a.glb"
+              ? run_zerotree({"convert", folder / "in.off", "-o", output, "--target-size", number})
+              : run_zerotree({"convert", folder / "in.off", "-o", output, "--split",
+                              "--target-size", number});
       ASSERT_EQ(result.exit_code, 0) << result.err;
       std::uint64_t written = 0;
       for (const auto& file : std::filesystem::directory_iterator(folder / "out"))
@@ -277,8 +277,7 @@ TEST(Command, NamesTheErrorThatCanBeReached) {
       run_zerotree({"convert", folder / "in.off", "--stream", folder / "x.zt", "--max-error",
                     "5e-4", "--target-size", "200"});
   EXPECT_EQ(both.exit_code, 5);
-  EXPECT_NE(both.err.find("--target-size allows 200"), std::string::npos)
-      << both.err;
+  EXPECT_NE(both.err.find("--target-size allows 200"), std::string::npos) << both.err;
   EXPECT_EQ(files_in(folder.path), 1u);
 }
 

@@ -120,8 +120,7 @@ TEST(HostilePacking, TheStrideMustBeTheAccessors) {
               json& triangles = packing(root, 1);
               const int stride = triangles["byteStride"];
               triangles["byteStride"] = 6 - stride;
-              root["bufferViews"][1]["byteLength"] =
-                  triangles["count"].get<int>() * (6 - stride);
+              root["bufferViews"][1]["byteLength"] = triangles["count"].get<int>() * (6 - stride);
             }),
             "PACKING_BROKEN");
 }
