@@ -5,8 +5,6 @@
 namespace zerotree::convert {
 namespace {
 
-constexpr std::size_t kExactSamples = 1'000'000;
-
 Eigen::AlignedBox3f box_of(const exporter::Surface& surface) {
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& p : surface.positions) box.extend(p);
@@ -32,7 +30,7 @@ const std::optional<MeasuredSurface>& PrefixErrors::at(std::uint64_t bytes, Prec
   decode::PrefixSurface& prefix = decoded(bytes);
   if (!prefix.has_surface()) return entry->second;
   measure::DistanceOptions options = how_.distance;
-  if (precision == Precision::exact) options.samples = kExactSamples;
+  if (precision == Precision::exact) options.samples = how_.exact_samples;
   const exporter::Surface surface = prefix.surface();
   const measure::SurfaceDistance distance =
       measure::compare_surfaces(how_.original, decode::to_triangle_mesh(surface), options);

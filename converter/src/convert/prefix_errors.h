@@ -29,13 +29,15 @@ struct PrefixMeasurement {
   double diagonal;
   /// Topology of the base and its levels.
   std::shared_ptr<const surface::SubdivisionHierarchy> hierarchy;
+  /// Of an exact measurement: as many as `zerotree compare` takes unless told otherwise.
+  std::size_t exact_samples = measure::DistanceOptions{}.samples;
 };
 
 /// How far a measured error can be trusted. Deviations are rare and large where a remesh cannot
 /// follow (inner walls, slits): there a quick measurement may be 10 % off, an exact one 1 %.
 enum class Precision {
   quick,  ///< as PrefixMeasurement says
-  exact,  ///< as many samples as `zerotree compare` takes unless told otherwise
+  exact,  ///< with `exact_samples`
 };
 
 /// A prefix that has a surface.

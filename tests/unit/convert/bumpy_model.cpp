@@ -12,7 +12,7 @@ namespace zerotree::test {
 namespace {
 
 constexpr int kLevels = 3;
-constexpr std::size_t kQuickSamples = 20'000;
+constexpr std::size_t kQuickSamples = 20'000, kExactSamples = 100'000;
 
 convert::AnalysedModel analysed_model() {
   convert::AnalysedModel result{bumpy_model(), {}};
@@ -51,7 +51,8 @@ BumpyModel::BumpyModel()
           {kQuickSamples, 1},
           original.mesh().positions.size(),
           bounding_box_diagonal(original.mesh().positions),
-          analysed.model.hierarchy} {}
+          analysed.model.hierarchy,
+          kExactSamples} {}
 
 decode::StreamFile BumpyModel::encode(double step) const {
   return convert::encode_model(analysed.model, analysed.wavelets, step, false);
