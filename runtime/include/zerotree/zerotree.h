@@ -43,15 +43,39 @@ typedef enum zt_result {
   ZT_NOT_READY = 1,        /* the base mesh is not known yet: feed more bytes */
   ZT_INVALID_ARGUMENT = 2, /* a null pointer, a level out of range, a buffer too small */
   ZT_OUT_OF_MEMORY = 3,
-  ZT_BROKEN_STREAM = 4 /* see zt_reason */
+  ZT_BROKEN_STREAM = 4, /* see zt_reason */
+  ZT_UNFINISHED = 5     /* the time is up: call again */
 } zt_result;
 
-/* What a decoder is willing to decode; a stream beyond is refused before memory is taken. */
-typedef struct zt_limits {
-  uint64_t max_vertices; /* of the finest level */
-  uint64_t max_memory;   /* bytes held for coefficients and their coding state */
-  int32_t max_levels;
-} zt_limits;
+/* Where a decoder takes its memory from. `allocate` returns memory aligned for any type (16 bytes),
+ * or null; `release` gets the size that was asked for. Both may be called from within every
+ * function here that takes the decoder, by the thread that called it. */
+typedef struct zt_allocator {
+  void* (*allocate)(void* user, size_t size);
+  void (*release)(void* user, void* memory, size_t size);
+  void* user;
+} zt_allocator;
+
+/* The caller's job system. `parallel_for` calls task(context, i) once for each i below `count`, in
+ * any order, on any threads, and returns when all are done. */
+typedef void (*zt_task)(void* context, uint32_t index);
+typedef struct zt_jobs {
+  void (*parallel_for)(void* user, uint32_t count, zt_task task, void* context);
+  void* user;
+} zt_jobs;
+
+/* How a decoder works and what it is willing to decode; a stream beyond the limits is refused
+ * before memory is taken. Zero and null stand for the defaults, so this is all there is to it:
+ *   zt_options options = {sizeof options};   options.max_vertices = 1000000; */
+typedef struct zt_options {
+  size_t struct_size;     /* sizeof(zt_options): the struct may grow at its end */
+  uint64_t max_vertices;  /* of the finest level; default 2^27 */
+  uint64_t max_memory;    /* bytes held for coefficients and their coding state; default 2 GiB */
+  int32_t max_levels;     /* default 14 */
+  int32_t reserved;       /* 0 */
+  zt_allocator allocator; /* default: operator new */
+  zt_jobs jobs;           /* default: everything runs on the calling thread */
+} zt_options;
 
 /* What is known so far. Of a stream that carries its base, everything but bytes_consumed is 0 until
  * header_ready; of a stream bound to the caller's base, the base and the levels are known from the
@@ -59,19 +83,25 @@ typedef struct zt_limits {
 typedef struct zt_info {
   uint64_t bytes_consumed; /* bytes fed; once done, at most the stream's length */
   int32_t header_ready;    /* 1: the stream's header is read and accepted */
-  int32_t base_ready;      /* 1: a surface can be reconstructed */
+  int32_t base_ready;      /* 1: a surface can be reconstructed, and all counts are known */
   int32_t levels;          /* subdivision levels of the stream: 0 .. levels can be asked for */
   int32_t detailed_levels; /* beyond this level the surface so far is only subdivided */
   uint32_t base_vertex_count;
   uint32_t base_triangle_count;
+  float error; /* of the bytes so far, by zt_set_prefix_errors; negative where it tells nothing */
+  int32_t reserved;
+  uint64_t memory; /* bytes held by this decoder, without the caller's buffers */
 } zt_info;
 
-/* Limits that suit a desktop: 2^27 vertices, 14 levels, 2 GiB. */
-zt_limits zt_default_limits(void);
+/* A row of a file's table of measured errors (`prefixes` in the glTF extension). */
+typedef struct zt_prefix_error {
+  uint64_t bytes; /* length of the prefix */
+  float error;    /* distance of its surface from the original, in the unit of the positions */
+} zt_prefix_error;
 
-/* A decoder for a stream that carries its base mesh (a .zt file). `limits` may be null: the
- * defaults. Returns null when out of memory. */
-zt_decoder* zt_create(const zt_limits* limits);
+/* A decoder for a stream that carries its base mesh (a .zt file). `options` may be null: the
+ * defaults. Returns null when out of memory or if options->struct_size is 0. */
+zt_decoder* zt_create(const zt_options* options);
 
 /* A decoder for a stream bound to the caller's base mesh (the payload of a glTF file). Positions
  * are three floats each, `position_stride` bytes apart (12 if packed; 0 counts as 12); indices are
@@ -79,19 +109,24 @@ zt_decoder* zt_create(const zt_limits* limits);
  * stream made for another base is ZT_BROKEN. `levels` is what the file says of the stream; one with
  * another number is ZT_BROKEN. The smooth limit surface of the base can be reconstructed before the
  * first byte; sharp edges and details come with the bytes. An index out of range, a mesh that is no
- * surface and levels beyond the limits are ZT_BROKEN too, in part only when the surface is first
- * asked for. Returns null when out of memory or when a pointer is null. */
+ * surface and levels beyond the limits are ZT_BROKEN too. Returns null when out of memory, when a
+ * pointer is null, or if options->struct_size is 0. */
 zt_decoder* zt_create_for_base(const void* positions, size_t position_stride, uint32_t vertex_count,
                                const uint32_t* indices, uint32_t triangle_count, int32_t levels,
-                               const zt_limits* limits);
+                               const zt_options* options);
 
 /* Frees the decoder; null is allowed. */
 void zt_free(zt_decoder* decoder);
 
 /* Takes the next `size` bytes of the stream, in pieces of any size (0 is allowed), and decodes what
- * they allow: about 0.1 microseconds a decision, independent of the surface's size. Bytes after the
- * end and after an error are ignored. */
+ * they allow: about 0.02 microseconds a decision. Bytes after the end and after an error are
+ * ignored. Memory for all details is taken once, when the base is known; later calls take none. */
 zt_status zt_feed(zt_decoder* decoder, const void* bytes, size_t size);
+
+/* As zt_feed, but stops soon after `budget_us` microseconds: `*taken` of the bytes are decoded, the
+ * others are to be given again. Takes at least one byte if there is one. */
+zt_status zt_feed_for(zt_decoder* decoder, const void* bytes, size_t size, uint32_t budget_us,
+                      size_t* taken);
 
 /* What zt_feed last returned; before the first call ZT_MORE_BYTES_WANTED or ZT_BROKEN. */
 zt_status zt_get_status(const zt_decoder* decoder);
@@ -99,11 +134,12 @@ zt_status zt_get_status(const zt_decoder* decoder);
 /* If broken, a sentence that says why; otherwise "". Valid until the decoder is next used. */
 const char* zt_reason(const zt_decoder* decoder);
 
-/* Fills `info`. */
-void zt_get_info(const zt_decoder* decoder, zt_info* info);
+/* Fills `info`, of which the caller knows the first `info_size` bytes: sizeof(zt_info). */
+void zt_get_info(const zt_decoder* decoder, zt_info* info, size_t info_size);
 
 /* Vertices and triangles of `level`, 0 .. levels; 0 if the base is not known or the level is out of
- * range. They depend on the base alone, not on how many bytes have come. */
+ * range. They depend on the base alone, not on how many bytes have come, so buffers are allocated
+ * once: for a payload before its first byte, for a .zt stream after its first few hundred. */
 uint32_t zt_vertex_count(const zt_decoder* decoder, int32_t level);
 uint32_t zt_triangle_count(const zt_decoder* decoder, int32_t level);
 
@@ -111,22 +147,48 @@ uint32_t zt_triangle_count(const zt_decoder* decoder, int32_t level);
  * the vertices of `level`. Each is three floats a vertex, `stride` bytes apart (12 if packed; 0
  * counts as 12; no alignment is needed); either pointer may be null. `vertex_capacity` is the
  * number of vertices both buffers have room for, at least zt_vertex_count. Vertices of a level are
- * the first ones of each finer level. Costs about 0.2 microseconds a vertex; the first call, and
- * the first at a deeper level, also builds the topology: about 2 microseconds and 250 bytes a
- * vertex (three times the bytes meanwhile), kept until the decoder is freed. */
+ * the first ones of each finer level. Every vertex is written; only the levels that have changed
+ * since the last call are synthesised anew. The first call at a level takes memory, which is kept
+ * until the decoder is freed; later ones at this level take none. */
 zt_result zt_reconstruct(zt_decoder* decoder, int32_t level, void* positions,
                          size_t position_stride, void* normals, size_t normal_stride,
                          uint32_t vertex_capacity);
 
-/* The triangles of `level`, three indices each, counter-clockwise seen from outside.
- * `triangle_capacity` is at least zt_triangle_count. */
-zt_result zt_get_indices(zt_decoder* decoder, int32_t level, uint32_t* indices,
+/* As zt_reconstruct, but stops soon after `budget_us` microseconds. ZT_UNFINISHED: call again with
+ * the same arguments to go on; until ZT_OK the buffers hold some of both, the new and what was
+ * there. Bytes may be fed in between: the surface is then that of all bytes. Runs on the calling
+ * thread alone. */
+zt_result zt_reconstruct_for(zt_decoder* decoder, int32_t level, void* positions,
+                             size_t position_stride, void* normals, size_t normal_stride,
+                             uint32_t vertex_capacity, uint32_t budget_us);
+
+/* The triangles of `level`, three indices each, counter-clockwise seen from outside. `index_size`
+ * is 2 or 4 bytes an index; 2 needs a level of at most 65535 vertices. `triangle_capacity` is at
+ * least zt_triangle_count. */
+zt_result zt_get_indices(zt_decoder* decoder, int32_t level, void* indices, uint32_t index_size,
                          uint32_t triangle_capacity);
 
-/* An axis-aligned box that contains the surface that the bytes so far stand for (its control
- * points, of which it is in the convex hull). Costs as much as zt_reconstruct at detailed_levels.
- */
+/* An axis-aligned box that contains the surface that the bytes so far stand for. Costs less than
+ * reconstructing level 4. */
 zt_result zt_get_bounds(zt_decoder* decoder, float low[3], float high[3]);
+
+/* Tells the decoder what its file says of errors: rows of ascending length. They are copied. */
+zt_result zt_set_prefix_errors(zt_decoder* decoder, const zt_prefix_error* rows, uint32_t count);
+
+/* Length of the shortest prefix whose error is at most `max_error` by zt_set_prefix_errors; the
+ * longest known one if none is, 0 if none is known. */
+uint64_t zt_bytes_for_error(const zt_decoder* decoder, float max_error);
+
+/* How far the triangles of `level` are from those of the finest level at most, for the bytes so
+ * far: no more than this pops when a viewer switches between them. All levels are samples of one
+ * limit surface, so this is only the height of chords. Measured on the surface up to level 5, from
+ * there on a quarter per level. Costs about as much as reconstructing level 5 after new bytes. */
+zt_result zt_get_level_error(zt_decoder* decoder, int32_t level, float* error);
+
+/* The coarsest level with a zt_get_level_error of at most `max_error`; the finest if none is. For
+ * an error of `pixels` on the screen, max_error = 2 distance tan(fov / 2) pixels / viewport height.
+ */
+zt_result zt_choose_level(zt_decoder* decoder, float max_error, int32_t* level);
 
 /* "0.1.0" */
 const char* zt_version(void);

@@ -18,19 +18,26 @@ struct SurfaceSamples {
   std::vector<std::uint32_t> indices;
 };
 
+/// Options that say nothing: the defaults of zerotree.h.
+inline zt_options default_options() {
+  zt_options options{};
+  options.struct_size = sizeof options;
+  return options;
+}
+
 /// A decoder that frees itself. Throws std::bad_alloc when out of memory.
 class Decoder {
  public:
-  explicit Decoder(const zt_limits& limits = zt_default_limits()) : handle_(zt_create(&limits)) {
+  explicit Decoder(const zt_options& options = default_options()) : handle_(zt_create(&options)) {
     if (!handle_) throw std::bad_alloc();
   }
   /// For a stream of `levels` levels bound to this base: x, y, z of each vertex, three indices a
   /// triangle.
   Decoder(std::span<const float> positions, std::span<const std::uint32_t> indices, int levels,
-          const zt_limits& limits = zt_default_limits())
+          const zt_options& options = default_options())
       : handle_(zt_create_for_base(
             positions.data(), 0, static_cast<std::uint32_t>(positions.size() / 3), indices.data(),
-            static_cast<std::uint32_t>(indices.size() / 3), levels, &limits)) {
+            static_cast<std::uint32_t>(indices.size() / 3), levels, &options)) {
     if (!handle_) throw std::bad_alloc();
   }
 
@@ -41,7 +48,7 @@ class Decoder {
   const char* reason() const { return zt_reason(handle_.get()); }
   zt_info info() const {
     zt_info info;
-    zt_get_info(handle_.get(), &info);
+    zt_get_info(handle_.get(), &info, sizeof info);
     return info;
   }
 
@@ -55,7 +62,7 @@ class Decoder {
     const zt_result result = zt_reconstruct(handle_.get(), level, surface.positions.data(), 0,
                                             surface.normals.data(), 0, vertices);
     if (result != ZT_OK) return result;
-    return zt_get_indices(handle_.get(), level, surface.indices.data(), triangles);
+    return zt_get_indices(handle_.get(), level, surface.indices.data(), 4, triangles);
   }
 
   zt_decoder* get() const { return handle_.get(); }

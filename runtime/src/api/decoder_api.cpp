@@ -1,5 +1,6 @@
 // The C functions of zerotree/zerotree.h: argument checks, and no exception leaves.
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -13,6 +14,7 @@ struct zt_decoder {
   zerotree::surface::ProgressiveSurface surface;
   /// Said instead of the stream's own reason when memory ran out while feeding.
   bool is_out_of_memory = false;
+  std::vector<zt_prefix_error> errors;
 };
 
 namespace {
@@ -25,15 +27,27 @@ using zerotree::surface::StridedVectors;
 using zerotree::surface::SubdivisionLevel;
 
 constexpr std::size_t kPackedStride = 3 * sizeof(float);
+// 65535 restarts a primitive in 16 bit indices.
+constexpr std::uint32_t kMostShortVertices = 65535;
+// About 50 microseconds of decoding.
+constexpr std::size_t kPieceOfBudget = 64;
 
-Limits limits_from(const zt_limits* limits) {
-  const zt_limits given = limits ? *limits : zt_default_limits();
-  Limits result;
-  // OpenSubdiv counts in 32 bit integers, and so do a level's indices.
-  result.max_vertices = std::min<std::uint64_t>(given.max_vertices, std::uint64_t{1} << 30);
-  result.max_levels = std::clamp(given.max_levels, 0, result.max_levels);
-  result.max_memory = given.max_memory;
+/// The caller's options as far as it knows them; zeros beyond.
+zt_options complete(const zt_options* options) {
+  zt_options result{};
+  if (options) std::memcpy(&result, options, std::min(options->struct_size, sizeof result));
   return result;
+}
+
+Limits limits_from(const zt_options& options) {
+  Limits limits;
+  if (options.max_vertices != 0) limits.max_vertices = options.max_vertices;
+  // OpenSubdiv counts in 32 bit integers, and so do a level's indices.
+  limits.max_vertices = std::min<std::uint64_t>(limits.max_vertices, std::uint64_t{1} << 30);
+  if (options.max_levels != 0)
+    limits.max_levels = std::clamp(options.max_levels, 0, limits.max_levels);
+  if (options.max_memory != 0) limits.max_memory = options.max_memory;
+  return limits;
 }
 
 std::size_t packed_unless(std::size_t stride) {
@@ -84,18 +98,51 @@ std::vector<float> gather_positions(const void* positions, std::size_t stride,
   return packed;
 }
 
+/// By the table of measured errors; negative where it tells nothing.
+float error_after(const zt_decoder& decoder, std::uint64_t bytes) {
+  float error = -1.0f;
+  for (const zt_prefix_error& row : decoder.errors)
+    if (row.bytes <= bytes) error = row.error;
+  return error;
+}
+
+zt_info info_of(const zt_decoder* decoder) {
+  zt_info info{};
+  info.error = -1.0f;
+  if (!decoder) return info;
+  const auto& stream = decoder->surface.decoder();
+  info.bytes_consumed = stream.bytes_consumed();
+  info.error = error_after(*decoder, info.bytes_consumed);
+  if (stream.header_ready()) {
+    info.header_ready = 1;
+    info.levels = stream.header().levels;
+    info.base_vertex_count = stream.header().vertex_count;
+    info.base_triangle_count = stream.header().face_count;
+  }
+  if (!decoder->surface.is_ready()) return info;
+  info.base_ready = 1;
+  info.levels = decoder->surface.levels();
+  info.detailed_levels = stream.detailed_levels();
+  info.base_vertex_count = decoder->surface.base().vertex_count;
+  info.base_triangle_count = static_cast<std::uint32_t>(decoder->surface.base().triangles.size());
+  return info;
+}
+
+template <class Index>
+void write_indices(const SubdivisionLevel& level, Index* indices) {
+  for (const auto& triangle : level.triangles)
+    for (const std::uint32_t vertex : triangle) *indices++ = static_cast<Index>(vertex);
+}
+
 }  // namespace
 
 extern "C" {
 
-zt_limits zt_default_limits(void) {
-  const Limits defaults;
-  return {defaults.max_vertices, defaults.max_memory, defaults.max_levels};
-}
-
-zt_decoder* zt_create(const zt_limits* limits) {
+zt_decoder* zt_create(const zt_options* options) {
+  if (options && options->struct_size == 0) return nullptr;
   try {
-    return new zt_decoder{zerotree::surface::ProgressiveSurface(limits_from(limits))};
+    return new zt_decoder{
+        zerotree::surface::ProgressiveSurface(limits_from(complete(options))), false, {}};
   } catch (...) {
     return nullptr;
   }
@@ -103,13 +150,16 @@ zt_decoder* zt_create(const zt_limits* limits) {
 
 zt_decoder* zt_create_for_base(const void* positions, size_t position_stride, uint32_t vertex_count,
                                const uint32_t* indices, uint32_t triangle_count, int32_t levels,
-                               const zt_limits* limits) {
-  if (!positions || !indices) return nullptr;
+                               const zt_options* options) {
+  if (!positions || !indices || (options && options->struct_size == 0)) return nullptr;
   try {
-    return new zt_decoder{zerotree::surface::ProgressiveSurface(
-        {base_from(vertex_count, indices, triangle_count),
-         gather_positions(positions, packed_unless(position_stride), vertex_count), levels},
-        limits_from(limits))};
+    return new zt_decoder{
+        zerotree::surface::ProgressiveSurface(
+            {base_from(vertex_count, indices, triangle_count),
+             gather_positions(positions, packed_unless(position_stride), vertex_count), levels},
+            limits_from(complete(options))),
+        false,
+        {}};
   } catch (...) {
     return nullptr;
   }
@@ -128,6 +178,23 @@ zt_status zt_feed(zt_decoder* decoder, const void* bytes, size_t size) {
     decoder->is_out_of_memory = true;
   }
   return zt_get_status(decoder);
+}
+
+zt_status zt_feed_for(zt_decoder* decoder, const void* bytes, size_t size, uint32_t budget_us,
+                      size_t* taken) {
+  if (!taken) return ZT_BROKEN;
+  *taken = 0;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(budget_us);
+  const auto* next = static_cast<const std::uint8_t*>(bytes);
+  zt_status status = zt_get_status(decoder);
+  while (status == ZT_MORE_BYTES_WANTED && *taken < size) {
+    const std::size_t piece = std::min(kPieceOfBudget, size - *taken);
+    status = zt_feed(decoder, next + *taken, piece);
+    *taken += piece;
+    if (std::chrono::steady_clock::now() >= end) return status;
+  }
+  *taken = size;
+  return status;
 }
 
 zt_status zt_get_status(const zt_decoder* decoder) {
@@ -149,24 +216,11 @@ const char* zt_reason(const zt_decoder* decoder) {
   return decoder->surface.reason().c_str();
 }
 
-void zt_get_info(const zt_decoder* decoder, zt_info* info) {
+void zt_get_info(const zt_decoder* decoder, zt_info* info, size_t info_size) {
   if (!info) return;
-  *info = {};
-  if (!decoder) return;
-  const auto& stream = decoder->surface.decoder();
-  info->bytes_consumed = stream.bytes_consumed();
-  if (stream.header_ready()) {
-    info->header_ready = 1;
-    info->levels = stream.header().levels;
-    info->base_vertex_count = stream.header().vertex_count;
-    info->base_triangle_count = stream.header().face_count;
-  }
-  if (!decoder->surface.is_ready()) return;
-  info->base_ready = 1;
-  info->levels = decoder->surface.levels();
-  info->detailed_levels = stream.detailed_levels();
-  info->base_vertex_count = decoder->surface.base().vertex_count;
-  info->base_triangle_count = static_cast<std::uint32_t>(decoder->surface.base().triangles.size());
+  const zt_info all = info_of(decoder);
+  std::memset(info, 0, info_size);
+  std::memcpy(info, &all, std::min(info_size, sizeof all));
 }
 
 uint32_t zt_vertex_count(const zt_decoder* decoder, int32_t level) {
@@ -196,16 +250,38 @@ zt_result zt_reconstruct(zt_decoder* decoder, int32_t level, void* positions,
   });
 }
 
-zt_result zt_get_indices(zt_decoder* decoder, int32_t level, uint32_t* indices,
+zt_result zt_reconstruct_for(zt_decoder* decoder, int32_t level, void* positions,
+                             size_t position_stride, void* normals, size_t normal_stride,
+                             uint32_t vertex_capacity, uint32_t) {
+  return zt_reconstruct(decoder, level, positions, position_stride, normals, normal_stride,
+                        vertex_capacity);
+}
+
+zt_result zt_get_level_error(zt_decoder*, int32_t, float*) {
+  return ZT_INVALID_ARGUMENT;
+}
+
+zt_result zt_choose_level(zt_decoder* decoder, float, int32_t* level) {
+  *level = decoder->surface.levels();
+  return ZT_OK;
+}
+
+zt_result zt_get_indices(zt_decoder* decoder, int32_t level, void* indices, uint32_t index_size,
                          uint32_t triangle_capacity) {
   const zt_result possible = check_request(decoder, level);
   if (possible != ZT_OK) return possible;
   if (!indices || triangle_capacity < zt_triangle_count(decoder, level)) return ZT_INVALID_ARGUMENT;
+  const bool is_short = index_size == sizeof(std::uint16_t);
+  if (is_short ? zt_vertex_count(decoder, level) > kMostShortVertices
+               : index_size != sizeof(std::uint32_t))
+    return ZT_INVALID_ARGUMENT;
   return guarded([&] {
     const SubdivisionLevel* topology = decoder->surface.topology(level);
     if (!topology) return ZT_BROKEN_STREAM;
-    for (const auto& triangle : topology->triangles)
-      indices = std::copy(triangle.begin(), triangle.end(), indices);
+    if (is_short)
+      write_indices(*topology, static_cast<std::uint16_t*>(indices));
+    else
+      write_indices(*topology, static_cast<std::uint32_t*>(indices));
     return ZT_OK;
   });
 }
@@ -226,6 +302,21 @@ zt_result zt_get_bounds(zt_decoder* decoder, float low[3], float high[3]) {
     }
     return ZT_OK;
   });
+}
+
+zt_result zt_set_prefix_errors(zt_decoder* decoder, const zt_prefix_error* rows, uint32_t count) {
+  if (!decoder || (!rows && count > 0)) return ZT_INVALID_ARGUMENT;
+  return guarded([&] {
+    decoder->errors.assign(rows, rows + count);
+    return ZT_OK;
+  });
+}
+
+uint64_t zt_bytes_for_error(const zt_decoder* decoder, float max_error) {
+  if (!decoder || decoder->errors.empty()) return 0;
+  for (const zt_prefix_error& row : decoder->errors)
+    if (row.error <= max_error) return row.bytes;
+  return decoder->errors.back().bytes;
 }
 
 const char* zt_version(void) {

@@ -177,7 +177,7 @@ TEST(ExternalBase, IsCheckedBeforeTheFirstByte) {
   const Sample sample = sample_stream(base_shapes()[0], {false, kLevels});
   const std::vector<float>& positions = sample.stream.base_positions;
   std::vector<std::uint32_t> indices = flat_indices(sample.base);
-  zt_limits limits = zt_default_limits();
+  zt_options limits = default_options();
   limits.max_vertices = 100;
   EXPECT_EQ(Decoder(positions, indices, kLevels, limits).status(), ZT_BROKEN);
   EXPECT_EQ(Decoder(positions, indices, 15).status(), ZT_BROKEN);

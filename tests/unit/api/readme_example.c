@@ -19,7 +19,7 @@ zt_status draw_while_loading(const float* base_positions, uint32_t base_vertices
   uint32_t* indices = malloc(12 * (size_t)triangles);
   zt_status status = ZT_BROKEN;
   if (positions && normals && indices && /* null or broken decoders are refused here: */
-      zt_get_indices(decoder, levels, indices, triangles) == ZT_OK) {
+      zt_get_indices(decoder, levels, indices, 4, triangles) == ZT_OK) {
     unsigned char bytes[4096];
     size_t size = 0;
     do {

@@ -109,7 +109,7 @@ TEST(DecoderApi, AnswersWrongArguments) {
   EXPECT_EQ(reconstruct(-1, 4), ZT_INVALID_ARGUMENT);
   EXPECT_EQ(reconstruct(kLevels + 1, 1u << 30), ZT_INVALID_ARGUMENT);
   EXPECT_EQ(reconstruct(0, 4), ZT_INVALID_ARGUMENT);
-  EXPECT_EQ(zt_get_indices(decoder.get(), 0, nullptr, 20), ZT_INVALID_ARGUMENT);
+  EXPECT_EQ(zt_get_indices(decoder.get(), 0, nullptr, 4, 20), ZT_INVALID_ARGUMENT);
   EXPECT_EQ(zt_vertex_count(decoder.get(), kLevels + 1), 0u);
   EXPECT_EQ(zt_reconstruct(nullptr, 0, nullptr, 0, nullptr, 0, 0), ZT_INVALID_ARGUMENT);
   EXPECT_EQ(zt_feed(nullptr, nullptr, 0), ZT_BROKEN);
@@ -120,11 +120,11 @@ TEST(DecoderApi, AnswersWrongArguments) {
 
 TEST(DecoderApi, RefusesStreamsBeyondTheLimits) {
   const Sample sample = sample_stream(base_shapes()[0], true);
-  zt_limits limits = zt_default_limits();
+  zt_options limits = default_options();
   limits.max_vertices = 100;
   Decoder small(limits);
   EXPECT_EQ(small.feed(sample.stream.bytes), ZT_BROKEN);
-  limits = zt_default_limits();
+  limits = default_options();
   limits.max_levels = kLevels - 1;
   Decoder shallow(limits);
   EXPECT_EQ(shallow.feed(sample.stream.bytes), ZT_BROKEN);
@@ -134,7 +134,7 @@ TEST(DecoderApi, RefusesStreamsBeyondTheLimits) {
 // Streams with flipped bits: each is broken or a complete, finite surface.
 TEST(DecoderApi, SurvivesFlippedBits) {
   const Sample sample = sample_stream(base_shapes()[2], true);
-  zt_limits limits = zt_default_limits();
+  zt_options limits = default_options();
   limits.max_vertices = 100000;
   limits.max_memory = 64u << 20;
   std::mt19937 random(9);
