@@ -10,9 +10,6 @@ namespace zerotree::surface {
 
 namespace {
 
-constexpr double kMeanShare = 0.2;
-constexpr double kLargestWeight = 16.0;
-
 Vector3 difference(std::span<const float> positions, std::uint32_t to, std::uint32_t from) {
   Vector3 result{};
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -33,8 +30,18 @@ double mean_face_area(const bitstream::BaseTopology& topology, std::span<const f
 }
 
 float area_weight(double area, double mean_area) {
-  const double weight = std::sqrt((1.0 - kMeanShare) * area / mean_area + kMeanShare);
-  return std::isnan(weight) ? 1.0f : static_cast<float>(std::min(weight, kLargestWeight));
+  const double weight = std::sqrt((1.0 - kMeanAreaShare) * area / mean_area + kMeanAreaShare);
+  return std::isnan(weight) ? 1.0f : static_cast<float>(std::min(weight, kLargestAreaWeight));
+}
+
+Vector3 detail_move(const EdgeTangents& tangents, const Vector3& detail, double mean_area) {
+  const EdgeFrame frame = tangents.frame();
+  const double scale = 1.0 / static_cast<double>(area_weight(tangents.triangle_area(), mean_area));
+  Vector3 move;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    move[axis] = scale * (frame.normal[axis] * detail[0] + frame.tangent1[axis] * detail[1] +
+                          frame.tangent2[axis] * detail[2]);
+  return move;
 }
 
 float detail_unit(const Dequantisation& dequantisation, int levels, int level,

@@ -10,6 +10,7 @@
 
 #include "bitstream/base_topology.h"
 #include "bitstream/coefficient_layout.h"
+#include "surface/edge_frames.h"
 
 namespace zerotree::surface {
 
@@ -30,6 +31,10 @@ constexpr float basis_norm(int levels_above_finest) {
   return norm;
 }
 
+/// Of the area weight: see area_weight.
+inline constexpr double kMeanAreaShare = 0.2;
+inline constexpr double kLargestAreaWeight = 16.0;
+
 /// Mean area of the flat triangles of a base mesh; `positions` holds x, y, z of each vertex.
 double mean_face_area(const bitstream::BaseTopology& topology, std::span<const float> positions);
 
@@ -37,6 +42,10 @@ double mean_face_area(const bitstream::BaseTopology& topology, std::span<const f
 /// sqrt(0.8 area / mean_area + 0.2), at most 16; 1 if that is no number. The share of the mean
 /// keeps a detail in its place while a prefix shows a triangle smaller than it will be.
 float area_weight(double area, double mean_area);
+
+/// What `detail` (normal, tangent 1, tangent 2; of area weight 1) moves its odd vertex, x, y, z,
+/// where the coarser surface has these tangents.
+Vector3 detail_move(const EdgeTangents& tangents, const Vector3& detail, double mean_area);
 
 /// What a value of 2 in a `CoefficientSet` is worth: the length of the detail component of
 /// `channel` at `level` (0 .. levels - 1) where the area weight is 1. A value v of weight w stands

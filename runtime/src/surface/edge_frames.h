@@ -61,6 +61,10 @@ inline EdgeFrame frame_from_tangents(const Vector3& along, const Vector3& across
   return frame;
 }
 
+/// Where floats suffice for a normal: its squared length before scaling is in this range, and the
+/// squared sine between the tangents is at least this. Elsewhere doubles decide.
+inline constexpr float kLeastNormal2 = 1e-30f, kLargestNormal2 = 1e30f, kLeastSine2 = 1e-4f;
+
 /// Two tangents of the coarser level's surface at an odd vertex.
 struct EdgeTangents {
   Vector3 along, across;
@@ -75,31 +79,30 @@ struct EdgeTangents {
   }
 };
 
-/// The tangents from the control points of the finer level before the detail is added: `predicted`
-/// = P * coarse, x, y, z per vertex. {tail, head} are the edge's even vertices, `wings` those of
-/// its EdgeLevel, `first_odd` the coarser level's number of vertices. In the interior these are
+/// A triangle beside an edge with two triangles, and beside a boundary edge, in units of
+/// |along x across|.
+inline constexpr double kInteriorAreaShare = 1.0 / 12.0;
+inline constexpr double kBoundaryAreaShare = 1.0 / 2.0;
+
+/// The tangents from the control points of the finer level before the detail is added, each x, y,
+/// z: the edge's even vertices and the odd ones on the other edges of its two faces, `wings` of
+/// surface/edge_forest.h; those of the right face are null at a boundary. In the interior these are
 /// Loop's limit tangents of the (always regular) odd vertex; on a crease the mean of both sides; on
 /// a boundary the B-spline curve and the surface beside it.
 template <class Real>
-EdgeTangents edge_tangents(const Real* predicted, std::uint32_t first_odd,
-                           const std::array<std::uint32_t, 2>& vertices,
-                           const std::array<std::uint32_t, 4>& wings) {
-  const auto even = [&](std::size_t k) { return predicted + 3 * std::size_t{vertices[k]}; };
-  const auto odd = [&](std::size_t k) {
-    return predicted + 3 * (std::size_t{first_odd} + wings[k]);
-  };
-  const Real *tail = even(0), *head = even(1), *left_tail = odd(0), *left_head = odd(1);
+EdgeTangents edge_tangents(const Real* tail, const Real* head,
+                           const std::array<const Real*, 4>& wings) {
+  const auto& [left_tail, left_head, right_tail, right_head] = wings;
   EdgeTangents tangents;
   auto& [along, across, area_share] = tangents;
-  if (wings[2] == bitstream::kNone) {
-    area_share = 1.0 / 2.0;
+  if (!right_tail) {
+    area_share = kBoundaryAreaShare;
     for (std::size_t k = 0; k < 3; ++k) {
       along[k] = static_cast<double>(head[k]) - tail[k];
       across[k] = static_cast<double>(left_tail[k]) + left_head[k] - tail[k] - head[k];
     }
   } else {
-    area_share = 1.0 / 12.0;
-    const Real *right_tail = odd(2), *right_head = odd(3);
+    area_share = kInteriorAreaShare;
     for (std::size_t k = 0; k < 3; ++k) {
       along[k] = 2.0 * (static_cast<double>(head[k]) - tail[k]) + left_head[k] - left_tail[k] +
                  right_head[k] - right_tail[k];
@@ -107,6 +110,21 @@ EdgeTangents edge_tangents(const Real* predicted, std::uint32_t first_odd,
     }
   }
   return tangents;
+}
+
+/// The same from a whole level: `predicted` = P * coarse, x, y, z per vertex. {tail, head} are the
+/// edge's even vertices, `wings` those of its EdgeLevel, `first_odd` the coarser level's number of
+/// vertices.
+template <class Real>
+EdgeTangents edge_tangents(const Real* predicted, std::uint32_t first_odd,
+                           const std::array<std::uint32_t, 2>& vertices,
+                           const std::array<std::uint32_t, 4>& wings) {
+  const auto even = [&](std::size_t k) { return predicted + 3 * std::size_t{vertices[k]}; };
+  const auto odd = [&](std::size_t k) {
+    return wings[k] == bitstream::kNone ? nullptr
+                                        : predicted + 3 * (std::size_t{first_odd} + wings[k]);
+  };
+  return edge_tangents<Real>(even(0), even(1), {odd(0), odd(1), odd(2), odd(3)});
 }
 
 }  // namespace zerotree::surface

@@ -17,6 +17,17 @@ struct LocalFilter {
   std::vector<std::array<float, 2>> dips, lifts;
 };
 
+/// What a detail of weight 1 of an edge at a vertex does there.
+struct EndWeights {
+  float dip, lift;
+};
+/// Of an edge at a vertex of this rule and number of edges.
+EndWeights end_weights(OpenSubdiv::Sdc::Crease::Rule rule, int valence, bool edge_is_sharp);
+/// At a smooth vertex of valence 6.
+EndWeights regular_weights();
+/// The vertex's dip in units of its lift: the same for all edges that move it; 0 if none does.
+float dip_per_lift(OpenSubdiv::Sdc::Crease::Rule rule);
+
 /// The filter of `level`, whose edges are `edges`. At a smooth or dart vertex of valence k the dip
 /// is 0.30 and the lift 0.05, both times 6 / k: a wavelet that dips beside its peak is close to
 /// orthogonal to Loop's scaling functions, and the two together give it zero mean on the regular

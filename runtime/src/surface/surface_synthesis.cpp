@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <utility>
 
 #include "surface/edge_frames.h"
@@ -72,15 +71,10 @@ Moves detail_moves(const SubdivisionLevel& level, const LocalDetails& details, d
     if (is_zero(details, edge)) continue;
     const EdgeTangents tangents = edge_tangents(
         predicted.data(), level.vertex_count, level.edges.vertices[edge], level.edges.wings[edge]);
-    const EdgeFrame frame = tangents.frame();
-    const float* detail = &details[3 * edge];
-    const double scale =
-        1.0 / static_cast<double>(area_weight(tangents.triangle_area(), mean_area));
+    const Vector3 local = {details[3 * edge], details[3 * edge + 1], details[3 * edge + 2]};
+    const Vector3 move = detail_move(tangents, local, mean_area);
     for (std::size_t axis = 0; axis < 3; ++axis)
-      moves[3 * edge + axis] =
-          static_cast<float>(scale * (frame.normal[axis] * static_cast<double>(detail[0]) +
-                                      frame.tangent1[axis] * static_cast<double>(detail[1]) +
-                                      frame.tangent2[axis] * static_cast<double>(detail[2])));
+      moves[3 * edge + axis] = static_cast<float>(move[axis]);
   }
   return moves;
 }
@@ -141,8 +135,7 @@ void limit_surface(const SubdivisionLevel& level, const Positions& control_point
     const auto write = [&](const StridedVectors& target, const Vector3& value) {
       const std::array<float, 3> rounded = {
           static_cast<float>(value[0]), static_cast<float>(value[1]), static_cast<float>(value[2])};
-      std::memcpy(static_cast<char*>(target.data) + vertex * target.stride, rounded.data(),
-                  sizeof rounded);
+      target.write(vertex, rounded.data());
     };
     if (positions.data) write(positions, sums[0]);
     if (normals.data) write(normals, frame_from_tangents(sums[1], sums[2]).normal);

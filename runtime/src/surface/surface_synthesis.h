@@ -7,6 +7,7 @@
 
 #include "bitstream/coefficient_layout.h"
 #include "surface/detail_weights.h"
+#include "surface/limit_output.h"
 #include "surface/subdivision_hierarchy.h"
 
 namespace zerotree::surface {
@@ -43,13 +44,6 @@ LocalDetails dequantise(const SubdivisionHierarchy& hierarchy,
 Positions reconstruct(const SubdivisionHierarchy& hierarchy, const Positions& base_control_points,
                       const bitstream::CoefficientSet& coefficients,
                       const Dequantisation& dequantisation, int level);
-
-/// Where `limit_surface` writes three floats per vertex, those of vertex v `v * stride` bytes from
-/// `data`, which needs no alignment. Null: not asked for.
-struct StridedVectors {
-  void* data = nullptr;
-  std::size_t stride = 3 * sizeof(float);
-};
 
 /// Limit positions and unit limit normals of the surface at the vertices of `level`, from that
 /// level's control points. Where the tangents vanish the normal is that of a fixed frame: always
