@@ -1,0 +1,87 @@
+// Loops over blocks of cells, written so that compilers make vector instructions of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace zerotree::bitstream {
+
+/// Cells are looked through in blocks of so many: the bits of a word.
+inline constexpr std::size_t kBlockCells = 64;
+
+/// Bits of a cell's flags. A cell with none can become significant in the current pass.
+enum CellFlag : std::uint8_t {
+  kSignificant = 1,
+  kVisited = 2,  ///< coded in this bit plane
+  kAbsent = 4,   ///< beyond a boundary, or padding of the last block
+  kClosed = 8,   ///< in the cleanup pass: nothing is left to be coded here or below
+};
+
+/// Bit i tells whether bytes[i], which is 0 or 1, is 1.
+inline std::uint64_t bits_of(const std::uint8_t (&bytes)[kBlockCells]) {
+  std::uint64_t bits = 0;
+  for (std::size_t k = 0; k < kBlockCells; k += 8) {
+    std::uint64_t eight = 0;
+    for (std::size_t i = 0; i < 8; ++i) eight |= std::uint64_t{bytes[k + i]} << (8 * i);
+    // Moves bit 8 i to bit 56 + i; no two products meet.
+    bits |= ((eight * 0x0102040810204080u) >> 56) << k;
+  }
+  return bits;
+}
+
+/// The cells of a block that are neither coded nor absent and have at least `activity` around and
+/// above them.
+inline std::uint64_t likely_cells(const std::uint8_t* flags, const std::uint8_t* around,
+                                  const std::uint8_t* above, std::uint8_t activity) {
+  std::uint8_t hit[kBlockCells];
+  for (std::size_t i = 0; i < kBlockCells; ++i) {
+    const auto sum = static_cast<std::uint8_t>(around[i] + above[i]);
+    const bool active = sum >= activity || sum < around[i];
+    hit[i] = static_cast<std::uint8_t>(active && flags[i] == 0);
+  }
+  return bits_of(hit);
+}
+
+/// The cells of a block that became significant in an earlier plane.
+inline std::uint64_t refinable_cells(const std::uint8_t* flags) {
+  std::uint8_t hit[kBlockCells];
+  for (std::size_t i = 0; i < kBlockCells; ++i) {
+    hit[i] = (flags[i] & (kSignificant | kVisited)) == kSignificant;
+  }
+  return bits_of(hit);
+}
+
+/// Doubles a block of sums, up to what a byte holds.
+inline void double_sums(std::uint8_t* sums) {
+  for (std::size_t i = 0; i < kBlockCells; ++i) {
+    sums[i] = static_cast<std::uint8_t>(sums[i] > 127 ? 255 : sums[i] * 2);
+  }
+}
+inline void double_leans(std::int8_t* leans) {
+  for (std::size_t i = 0; i < kBlockCells; ++i) {
+    const int lean = leans[i];
+    leans[i] = static_cast<std::int8_t>(lean > 63 ? 127 : lean < -63 ? -127 : lean * 2);
+  }
+}
+
+inline void forget_visits(std::uint8_t* flags) {
+  for (std::size_t i = 0; i < kBlockCells; ++i) flags[i] &= kSignificant | kAbsent;
+}
+
+/// Closes the first `count` cells of a block that are coded or absent and whose four children are
+/// closed, which are those with a flag of `child_closed`.
+inline void close_cells(std::uint8_t* flags, const std::uint8_t* children, std::size_t count,
+                        std::uint8_t child_closed) {
+  const std::uint32_t mask = child_closed * 0x01010101u;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint32_t four;
+    std::memcpy(&four, children + 4 * i, 4);
+    // Flags are below 16, so 15 more carry into the next bit from any but none.
+    const bool closed = (((four & mask) + 0x0f0f0f0fu) & 0x10101010u) == 0x10101010u;
+    const bool coded = flags[i] != 0;
+    flags[i] = static_cast<std::uint8_t>(flags[i] | (closed && coded ? kClosed : 0));
+  }
+}
+
+}  // namespace zerotree::bitstream
