@@ -12,7 +12,7 @@ namespace zerotree::bitstream {
 /// changes (window 2^5) and one that is precise (window 2^8). While few bits have been seen the
 /// windows are as short as the history, so that a context learns from its first bits on.
 /// Integers only: encoder and decoder run through the same states on every machine.
-class AdaptiveBit {
+class alignas(8) AdaptiveBit {
  public:
   /// In units of 2^-16; always within 1 .. 65535.
   std::uint32_t probability_of_one() const {
@@ -21,7 +21,7 @@ class AdaptiveBit {
 
   /// Without branches: what comes next is a jump on the bit itself, and one is enough.
   void update(bool bit) {
-    const std::uint32_t mask = bit ? 0xffffu : 0u;
+    const std::uint32_t mask = (0u - std::uint32_t{bit}) & 0xffffu;
     const Windows windows = kWindows[seen_];
     fast_ = moved(fast_, mask, windows.fast);
     slow_ = moved(slow_, mask, windows.slow);

@@ -1,13 +1,14 @@
 // Loops over blocks of cells, written so that compilers make vector instructions of them.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 
 namespace zerotree::bitstream {
 
-/// Cells are looked through in blocks of so many: the bits of a word.
+/// Cells that are skipped together where nothing happens.
 inline constexpr std::size_t kBlockCells = 64;
 
 /// Bits of a cell's flags. A cell with none can become significant in the current pass.
@@ -18,35 +19,42 @@ enum CellFlag : std::uint8_t {
   kClosed = 8,   ///< in the cleanup pass: nothing is left to be coded here or below
 };
 
+/// A sweep takes the cells of a block in groups of so many, one vector register. A significance
+/// may make more cells of its group due, so a group is looked at anew after each.
+inline constexpr std::size_t kGroupCells = 16;
+/// Bit i stands for cell i of a group.
+using GroupMask = std::uint32_t;
+
 /// Bit i tells whether bytes[i], which is 0 or 1, is 1.
-inline std::uint64_t bits_of(const std::uint8_t (&bytes)[kBlockCells]) {
-  std::uint64_t bits = 0;
-  for (std::size_t k = 0; k < kBlockCells; k += 8) {
-    std::uint64_t eight = 0;
-    for (std::size_t i = 0; i < 8; ++i) eight |= std::uint64_t{bytes[k + i]} << (8 * i);
-    // Moves bit 8 i to bit 56 + i; no two products meet.
-    bits |= ((eight * 0x0102040810204080u) >> 56) << k;
-  }
-  return bits;
+inline GroupMask bits_of(const std::uint8_t (&bytes)[kGroupCells]) {
+  // The product moves the bit of byte i to bit 56 + i; no two of its parts meet.
+  constexpr std::uint64_t kGather = std::endian::native == std::endian::little
+                                        ? 0x0102040810204080u
+                                        : 0x8040201008040201u;
+  std::uint64_t low, high;
+  std::memcpy(&low, bytes, 8);
+  std::memcpy(&high, bytes + 8, 8);
+  return static_cast<GroupMask>(((low * kGather) >> 56) | ((high * kGather) >> 56 << 8));
 }
 
-/// The cells of a block that are neither coded nor absent and have at least `activity` around and
+/// The cells of a group that are neither coded nor absent and have at least `activity` around and
 /// above them.
-inline std::uint64_t likely_cells(const std::uint8_t* flags, const std::uint8_t* around,
-                                  const std::uint8_t* above, std::uint8_t activity) {
-  std::uint8_t hit[kBlockCells];
-  for (std::size_t i = 0; i < kBlockCells; ++i) {
+inline GroupMask likely_cells(const std::uint8_t* flags, const std::uint8_t* around,
+                              const std::uint8_t* above, std::uint8_t activity) {
+  std::uint8_t hit[kGroupCells];
+  for (std::size_t i = 0; i < kGroupCells; ++i) {
     const auto sum = static_cast<std::uint8_t>(around[i] + above[i]);
-    const bool active = sum >= activity || sum < around[i];
-    hit[i] = static_cast<std::uint8_t>(active && flags[i] == 0);
+    const auto overflow = static_cast<std::uint8_t>(sum < around[i] ? 0xff : 0);
+    const auto active = static_cast<std::uint8_t>((sum | overflow) >= activity ? 1 : 0);
+    hit[i] = static_cast<std::uint8_t>(flags[i] == 0 ? active : 0);
   }
   return bits_of(hit);
 }
 
-/// The cells of a block that became significant in an earlier plane.
-inline std::uint64_t refinable_cells(const std::uint8_t* flags) {
-  std::uint8_t hit[kBlockCells];
-  for (std::size_t i = 0; i < kBlockCells; ++i) {
+/// The cells of a group that became significant in an earlier plane.
+inline GroupMask refinable_cells(const std::uint8_t* flags) {
+  std::uint8_t hit[kGroupCells];
+  for (std::size_t i = 0; i < kGroupCells; ++i) {
     hit[i] = (flags[i] & (kSignificant | kVisited)) == kSignificant;
   }
   return bits_of(hit);

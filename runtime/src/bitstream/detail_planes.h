@@ -71,9 +71,24 @@ class DetailPlanes {
     return false;
   }
 
-  // The cells of the block at `begin` that a sweep has not come to yet.
-  std::uint64_t still_ahead(std::size_t begin) const {
-    return begin < index_ ? ~std::uint64_t{0} << (index_ % kBlockCells) : ~std::uint64_t{0};
+  // Calls `group` for the beginning of every group of cells in touched blocks, from index_ on.
+  template <class Group>
+  bool for_groups(const ChannelCells& cells, int level, Group group) const {
+    const std::size_t end = state_.block_count(level) * kBlockCells;
+    for (std::size_t begin = index_ / kGroupCells * kGroupCells; begin < end;) {
+      if (cells.touched[begin / kBlockCells] == 0) {
+        begin = (begin / kBlockCells + 1) * kBlockCells;
+        continue;
+      }
+      if (!group(begin)) return false;
+      begin += kGroupCells;
+    }
+    return true;
+  }
+
+  // The cells of the group at `begin` that a sweep has not come to yet.
+  GroupMask still_ahead(std::size_t begin) const {
+    return begin < index_ ? ~GroupMask{0} << (index_ % kGroupCells) : ~GroupMask{0};
   }
 
   bool likely_sweep(BitCoder& home, int plane, std::uint8_t activity, int level, int c) {
@@ -85,15 +100,12 @@ class DetailPlanes {
     const ChannelCells cells = state_.cells(c, level);
     const std::size_t first_cell = state_.level_begin(level);
     auto& contexts = coding_.contexts.significance[coding_.kind(c)][coding_.level_class(level)];
-    const std::size_t blocks = state_.block_count(level);
-    for (std::size_t block = index_ / kBlockCells; block < blocks; ++block) {
-      if (cells.touched[block] == 0) continue;
-      const std::size_t begin = block * kBlockCells;
+    return for_groups(cells, level, [&](std::size_t begin) {
       const auto likely = [&] {
         return likely_cells(cells.flags + begin, cells.around + begin, cells.above + begin,
                             activity);
       };
-      for (std::uint64_t left = likely() & still_ahead(begin); left != 0;) {
+      for (GroupMask left = likely() & still_ahead(begin); left != 0;) {
         const std::size_t i = begin + static_cast<std::size_t>(std::countr_zero(left));
         left &= left - 1;
         const bool truth = coding_.details.significant(c, first_cell + i, plane);
@@ -106,10 +118,10 @@ class DetailPlanes {
         if (!coding_.code_sign(coder, plane, level, c, i)) return stop_at(i);
         sign_due_ = false;
         // It may have made cells ahead likely; those behind it have had their turn.
-        left = likely() & ~std::uint64_t{1} << (i % kBlockCells);
+        left = likely() & ~GroupMask{1} << (i % kGroupCells);
       }
-    }
-    return true;
+      return true;
+    });
   }
 
   template <class Value>
@@ -118,27 +130,25 @@ class DetailPlanes {
     const ChannelCells cells = state_.cells(c, level);
     const std::size_t first_cell = state_.level_begin(level);
     auto& contexts = coding_.contexts.refinement;
-    const std::size_t blocks = state_.block_count(level);
     const int half = 1 << plane;
-    for (std::size_t block = index_ / kBlockCells; block < blocks; ++block) {
-      if (cells.touched[block] == 0) continue;
-      const std::size_t begin = block * kBlockCells;
-      std::uint64_t left = refinable_cells(cells.flags + begin) & still_ahead(begin);
+    return for_groups(cells, level, [&](std::size_t begin) {
+      GroupMask left = refinable_cells(cells.flags + begin) & still_ahead(begin);
       for (; left != 0; left &= left - 1) {
         const std::size_t i = begin + static_cast<std::size_t>(std::countr_zero(left));
         const int value = values[i];
         // In units of 2^plane: 6 before the first refinement, 10 or 14 before the second.
         const int known = std::abs(value) >> plane;
-        const int which = known < 8 ? 0 : known < 16 ? 1 : 2;
+        const int which = int{known >= 8} + int{known >= 16};
         const int activity = std::min(255, cells.around[i] + cells.above[i]);
         const bool bit = coder.code(coding_.details.bit(c, first_cell + i, plane),
                                     contexts[which][kRefinementClass[activity]]);
         if (coder.starved()) return stop_at(i);
-        values[i] = static_cast<Value>((value < 0) == bit ? value - half : value + half);
+        const int outwards = bit ? half : -half;
+        values[i] = static_cast<Value>(value + (value < 0 ? -outwards : outwards));
         state_.note_change(level);
       }
-    }
-    return true;
+      return true;
+    });
   }
 
   DetailCoding<Details> coding_;

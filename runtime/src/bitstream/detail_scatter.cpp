@@ -20,53 +20,40 @@ void add(std::int8_t& sum, int weight) {
   sum = static_cast<std::int8_t>(std::clamp(sum + weight, -127, 127));
 }
 
-void add_around(const ChannelCells& cells, std::size_t index, int weight) {
-  add(cells.around[index], weight);
-  cells.touched[index / kBlockCells] = 1;
-}
-
-void add_above(const ChannelCells& cells, std::size_t index, int weight) {
-  add(cells.above[index], weight);
-  cells.touched[index / kBlockCells] = 1;
-}
-
-struct Steps {
-  int first, last;  // of -1, 0, 1, counted from 0
-};
-
-// Steps in q change one half of the index's bits, steps in p the other.
+// Steps in q change one half of the index's bits, steps in p the other. A neighbour beyond the image
+// is the cell's own row or column with no weight: that costs less than a jump that few foresee.
 template <bool kNormalChannel>
-inline void scatter_to_ring(const ChannelCells& cells, std::size_t image, const SpreadCell& cell,
-                            Steps p_steps, Steps q_steps, int sign) {
-  const std::array<std::uint32_t, 3> rows = {spread_difference(cell.p, 1) << 1, cell.p << 1,
-                                             spread_sum(cell.p, 1) << 1};
-  const std::array<std::uint32_t, 3> columns = {spread_difference(cell.q, 1), cell.q,
-                                                spread_sum(cell.q, 1)};
-  for (int i = p_steps.first; i <= p_steps.last; ++i) {
-    for (int k = q_steps.first; k <= q_steps.last; ++k) {
+inline void scatter_to_ring(const ChannelCells& cells, int level, const SpreadCell& cell,
+                            int sign) {
+  const std::uint32_t last = spread_last(level);
+  const std::size_t image = std::size_t{cell.base_edge} << (2 * level);
+  const bool p_exists[3] = {cell.p != 0, true, cell.p != last};
+  const bool q_exists[3] = {cell.q != 0, true, cell.q != last};
+  const std::uint32_t rows[3] = {spread_difference(cell.p, p_exists[0]) << 1, cell.p << 1,
+                                 spread_sum(cell.p, p_exists[2]) << 1};
+  const std::uint32_t columns[3] = {spread_difference(cell.q, q_exists[0]), cell.q,
+                                    spread_sum(cell.q, q_exists[2])};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
       if (i == 1 && k == 1) continue;
       const std::size_t index = image + (rows[i] | columns[k]);
-      add_around(cells, index, kRingNeighbour);
+      const int exists = p_exists[i] && q_exists[k];
+      add(cells.around[index], exists * kRingNeighbour);
       // On one line with the cell: p - q is the same.
-      if (kNormalChannel && i == k) add(cells.lean[index], sign * kCollinearLean);
+      if (kNormalChannel && i == k) add(cells.lean[index], exists * sign * kCollinearLean);
+      // The corners lie in all the blocks that the ring lies in.
+      if (i != 1 && k != 1) cells.touched[index / kBlockCells] = 1;
     }
   }
 }
 
-template <bool kNormalChannel>
-void scatter_to_ring(const ChannelCells& cells, int level, const SpreadCell& cell, int sign) {
-  const std::uint32_t last = spread_last(level);
-  const std::size_t image = std::size_t{cell.base_edge} << (2 * level);
-  const auto steps = [last](std::uint32_t x) { return Steps{x == 0 ? 1 : 0, x == last ? 1 : 2}; };
-  const Steps p_steps = steps(cell.p), q_steps = steps(cell.q);
-  if (p_steps.last - p_steps.first + q_steps.last - q_steps.first == 4) {  // so it is unrolled
-    scatter_to_ring<kNormalChannel>(cells, image, cell, {0, 2}, {0, 2}, sign);
-  } else {
-    scatter_to_ring<kNormalChannel>(cells, image, cell, p_steps, q_steps, sign);
-  }
-}
-
 }  // namespace
+
+// A small triangle by the image side that it lies in: the barycentric coordinates of its corner
+// nearest to each base corner, but the third one less than that by `row_offset`. All are spread.
+struct DetailState::SmallTriangle {
+  std::uint32_t rest, place, row, row_offset;
+};
 
 void DetailState::set_significant(int c, int level, std::size_t index, int plane, bool negative) {
   set_value(c, level, index, plane, negative);
@@ -74,13 +61,15 @@ void DetailState::set_significant(int c, int level, std::size_t index, int plane
   const ChannelCells cells = levels_[level].cells[c];
   cells.flags[index] |= kSignificant | kVisited;
   cells.touched[index / kBlockCells] = 1;
-  const int sign = negative ? -1 : 1;
+  const int sign = 1 - 2 * int{negative};
   c == kNormal ? scatter<true>(cells, level, index, sign)
                : scatter<false>(cells, level, index, sign);
   for (int other = 0; other < kChannelCount; ++other) {
     if (other == c) continue;
     activate(other, level);
-    add_above(levels_[level].cells[other], index, kOtherChannel);
+    const ChannelCells others = levels_[level].cells[other];
+    add(others.above[index], kOtherChannel);
+    others.touched[index / kBlockCells] = 1;
   }
   if (level + 1 == levels()) return;
   activate(c, level + 1);
@@ -96,57 +85,52 @@ void DetailState::set_value(int c, int level, std::size_t index, int plane, bool
     detailed_[c] |= std::uint32_t{1} << level;
   }
   if (plane >= LevelValues::kNarrowPlanes && !values.is_wide()) values.widen();
-  const std::int32_t magnitude = std::int32_t{3} << plane;
-  values.set(index, negative ? -magnitude : magnitude);
-}
-
-template <bool kNormalChannel>
-void DetailState::scatter(const ChannelCells& cells, int level, std::size_t index, int sign) {
-  const SpreadCell where = spread_cell_at(level, index);
-  scatter_to_faces<kNormalChannel>(cells, level, where, sign);
-  scatter_to_ring<kNormalChannel>(cells, level, where, sign);
+  values.set(index, (1 - 2 * int{negative}) * (std::int32_t{3} << plane));
 }
 
 // The edge lies in row `row` of the image's side, `place` edges after the corner where the side's
-// local edge begins. Its two triangles are the one above it, whose corner nearest to each base
-// corner has the barycentric coordinates below, and the one under it. All numbers are spread.
+// local edge begins. Its two triangles are the one above it and the one under it, which for an edge
+// on the base edge is the first one of the other side.
 template <bool kNormalChannel>
-void DetailState::scatter_to_faces(const ChannelCells& cells, int level, const SpreadCell& cell,
-                                   int sign) {
+void DetailState::scatter(const ChannelCells& cells, int level, std::size_t index, int sign) {
+  const SpreadCell cell = spread_cell_at(level, index);
+  scatter_to_ring<kNormalChannel>(cells, level, cell, sign);
   const std::uint32_t last = spread_last(level);
-  const auto side_at = [&](int s, std::uint32_t row, std::uint32_t place) {
-    const Side& side = sides_[cell.base_edge][s];
-    if (!side.exists) return;
-    const std::uint32_t rest = spread_difference(spread_difference(last, row), place);
-    scatter_to_triangle<kNormalChannel>(cells, level, side, {rest, place, row}, 0, sign);
-    if (row == 0) return;
-    const std::uint32_t under = spread_difference(row, 1);
-    scatter_to_triangle<kNormalChannel>(cells, level, side, {rest, place, under}, 1, sign);
-  };
-  if (cell.p >= cell.q) side_at(0, spread_difference(cell.p, cell.q), cell.q);
+  const bool second = cell.p < cell.q;
+  const std::uint32_t row = spread_difference(second ? cell.q : cell.p, second ? cell.p : cell.q);
   // Side 1 runs through the base edge against its direction, so places count from the other end.
-  if (cell.p <= cell.q) {
-    side_at(1, spread_difference(cell.q, cell.p), spread_difference(last, cell.q));
+  const std::uint32_t place = cell.q ^ (second ? last : 0);
+  const std::uint32_t rest = spread_difference(last ^ row, place);
+  const std::array<Side, 2>& sides = sides_[cell.base_edge];
+  const auto scatter_in = [&](const Side& side, const SmallTriangle& triangle) {
+    if (side.exists) scatter_to_triangle<kNormalChannel>(cells, level, side, triangle, sign);
+  };
+  scatter_in(sides[second ? 1 : 0], {rest, place, row, 0});
+  if (row == 0) {
+    scatter_in(sides[1], {place, rest, 0, 0});
+  } else {
+    scatter_in(sides[second ? 1 : 0], {rest, place, spread_difference(row, 1), 1});
   }
 }
 
 template <bool kNormalChannel>
-void DetailState::scatter_to_triangle(const ChannelCells& cells, int level, const Side& side,
-                                      std::array<std::uint32_t, 3> corner, std::uint32_t row_offset,
-                                      int sign) {
+inline void DetailState::scatter_to_triangle(const ChannelCells& cells, int level,
+                                             const Side& side, const SmallTriangle& triangle,
+                                             int sign) {
   const std::uint32_t last = spread_last(level);
+  const std::array<std::uint32_t, 3> corner = {triangle.rest, triangle.place, triangle.row};
   for (int j = 1; j < 3; ++j) {
     const std::uint32_t edge = side.edges[j] >> 1;
-    const std::uint32_t row = spread_sum(corner[(j + 2) % 3], row_offset);
+    const std::uint32_t row = spread_sum(corner[(j + 2) % 3], triangle.row_offset);
     const std::uint32_t place = corner[(j + 1) % 3];
+    // A coordinate counted from the other end is its complement.
+    const std::uint32_t turn = last & (0u - (side.edges[j] & 1));
     const std::uint32_t end = spread_sum(place, row);
-    const SpreadCell neighbour =
-        (side.edges[j] & 1) == 0
-            ? SpreadCell{edge, end, place}
-            : SpreadCell{edge, spread_difference(last, end), spread_difference(last, place)};
-    const std::size_t i = cell_index(level, neighbour);
-    add_around(cells, i, kFaceNeighbour);
+    const std::size_t i =
+        cell_index(level, SpreadCell{edge, end ^ turn, place ^ turn});
+    add(cells.around[i], kFaceNeighbour);
     if (kNormalChannel) add(cells.lean[i], sign * kFaceLean);
+    cells.touched[i / kBlockCells] = 1;
   }
 }
 

@@ -109,6 +109,7 @@ class DetailState {
     std::array<std::uint32_t, 3> edges;
     bool exists;
   };
+  struct SmallTriangle;
   struct Level {
     RawMemory memory;
     std::array<ChannelCells, kChannelCount> cells;
@@ -121,10 +122,8 @@ class DetailState {
   void mark_absent(int level, std::uint8_t* flags) const;
   void set_value(int c, int level, std::size_t index, int plane, bool negative);
   template <bool kNormalChannel>
-  void scatter_to_faces(const ChannelCells& cells, int level, const SpreadCell& cell, int sign);
-  template <bool kNormalChannel>
   void scatter_to_triangle(const ChannelCells& cells, int level, const Side& side,
-                           std::array<std::uint32_t, 3> corner, std::uint32_t row_offset, int sign);
+                           const SmallTriangle& triangle, int sign);
   template <bool kNormalChannel>
   void scatter(const ChannelCells& cells, int level, std::size_t index, int sign);
 

@@ -83,8 +83,10 @@ class RangeDecoder {
   bool take(std::uint64_t bound) {
     const std::uint64_t high = bound << 32;
     const bool one = window_ < high;
-    window_ -= one ? 0 : high;
-    range_ = one ? bound : range_ - bound;
+    // All ones or all zeros: compilers make jumps of a choice, and here they are mispredicted.
+    const std::uint64_t mask = std::uint64_t{0} - std::uint64_t{one};
+    window_ -= high & ~mask;
+    range_ = range_ - bound + ((2 * bound - range_) & mask);
     // The range has 9 bits or more; whole bytes bring it back to 25 or more.
     const int shift = std::countl_zero(static_cast<std::uint32_t>(range_)) & 24;
     range_ <<= shift;
