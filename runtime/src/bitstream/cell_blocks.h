@@ -6,6 +6,10 @@
 #include <cstdint>
 #include <cstring>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 namespace zerotree::bitstream {
 
 /// Cells that are skipped together where nothing happens.
@@ -19,45 +23,53 @@ enum CellFlag : std::uint8_t {
   kClosed = 8,   ///< in the cleanup pass: nothing is left to be coded here or below
 };
 
-/// A sweep takes the cells of a block in groups of so many, one vector register. A significance
-/// may make more cells of its group due, so a group is looked at anew after each.
-inline constexpr std::size_t kGroupCells = 16;
-/// Bit i stands for cell i of a group.
-using GroupMask = std::uint32_t;
+/// Bit i stands for cell i of a block.
+using BlockMask = std::uint64_t;
 
-/// Bit i tells whether bytes[i], which is 0 or 1, is 1.
-inline GroupMask bits_of(const std::uint8_t (&bytes)[kGroupCells]) {
-  // The product moves the bit of byte i to bit 56 + i; no two of its parts meet.
+/// Which of the bytes, each 0 or 255, are 255.
+inline BlockMask mask_of(const std::uint8_t (&bytes)[kBlockCells]) {
+  BlockMask mask = 0;
+#ifdef __SSE2__
+  for (std::size_t k = 0; k < kBlockCells; k += 16) {
+    const __m128i sixteen = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes + k));
+    mask |= BlockMask{static_cast<std::uint16_t>(_mm_movemask_epi8(sixteen))} << k;
+  }
+#else
+  // The product moves the lowest bit of byte i to bit 56 + i; no two of its parts meet.
   constexpr std::uint64_t kGather = std::endian::native == std::endian::little
                                         ? 0x0102040810204080u
                                         : 0x8040201008040201u;
-  std::uint64_t low, high;
-  std::memcpy(&low, bytes, 8);
-  std::memcpy(&high, bytes + 8, 8);
-  return static_cast<GroupMask>(((low * kGather) >> 56) | ((high * kGather) >> 56 << 8));
+  for (std::size_t k = 0; k < kBlockCells; k += 8) {
+    std::uint64_t eight;
+    std::memcpy(&eight, bytes + k, 8);
+    mask |= (((eight & 0x0101010101010101u) * kGather) >> 56) << k;
+  }
+#endif
+  return mask;
 }
 
-/// The cells of a group that are neither coded nor absent and have at least `activity` around and
+/// The cells of a block that are neither coded nor absent and have at least `activity` around and
 /// above them.
-inline GroupMask likely_cells(const std::uint8_t* flags, const std::uint8_t* around,
+inline BlockMask likely_cells(const std::uint8_t* flags, const std::uint8_t* around,
                               const std::uint8_t* above, std::uint8_t activity) {
-  std::uint8_t hit[kGroupCells];
-  for (std::size_t i = 0; i < kGroupCells; ++i) {
+  std::uint8_t hit[kBlockCells];
+  for (std::size_t i = 0; i < kBlockCells; ++i) {
     const auto sum = static_cast<std::uint8_t>(around[i] + above[i]);
     const auto overflow = static_cast<std::uint8_t>(sum < around[i] ? 0xff : 0);
-    const auto active = static_cast<std::uint8_t>((sum | overflow) >= activity ? 1 : 0);
+    const auto active = static_cast<std::uint8_t>((sum | overflow) >= activity ? 0xff : 0);
     hit[i] = static_cast<std::uint8_t>(flags[i] == 0 ? active : 0);
   }
-  return bits_of(hit);
+  return mask_of(hit);
 }
 
-/// The cells of a group that became significant in an earlier plane.
-inline GroupMask refinable_cells(const std::uint8_t* flags) {
-  std::uint8_t hit[kGroupCells];
-  for (std::size_t i = 0; i < kGroupCells; ++i) {
-    hit[i] = (flags[i] & (kSignificant | kVisited)) == kSignificant;
+/// The cells of a block that became significant in an earlier plane.
+inline BlockMask refinable_cells(const std::uint8_t* flags) {
+  std::uint8_t hit[kBlockCells];
+  for (std::size_t i = 0; i < kBlockCells; ++i) {
+    const bool earlier = (flags[i] & (kSignificant | kVisited)) == kSignificant;
+    hit[i] = static_cast<std::uint8_t>(earlier ? 0xff : 0);
   }
-  return bits_of(hit);
+  return mask_of(hit);
 }
 
 /// Doubles a block of sums, up to what a byte holds.

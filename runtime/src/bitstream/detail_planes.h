@@ -71,24 +71,19 @@ class DetailPlanes {
     return false;
   }
 
-  // Calls `group` for the beginning of every group of cells in touched blocks, from index_ on.
-  template <class Group>
-  bool for_groups(const ChannelCells& cells, int level, Group group) const {
-    const std::size_t end = state_.block_count(level) * kBlockCells;
-    for (std::size_t begin = index_ / kGroupCells * kGroupCells; begin < end;) {
-      if (cells.touched[begin / kBlockCells] == 0) {
-        begin = (begin / kBlockCells + 1) * kBlockCells;
-        continue;
-      }
-      if (!group(begin)) return false;
-      begin += kGroupCells;
+  // Calls `part` for the beginning of every touched block, from the one of index_ on.
+  template <class Part>
+  bool for_blocks(const ChannelCells& cells, int level, Part part) const {
+    const std::size_t blocks = state_.block_count(level);
+    for (std::size_t block = index_ / kBlockCells; block < blocks; ++block) {
+      if (cells.touched[block] != 0 && !part(block * kBlockCells)) return false;
     }
     return true;
   }
 
-  // The cells of the group at `begin` that a sweep has not come to yet.
-  GroupMask still_ahead(std::size_t begin) const {
-    return begin < index_ ? ~GroupMask{0} << (index_ % kGroupCells) : ~GroupMask{0};
+  // The cells of the block at `begin` that a sweep has not come to yet.
+  BlockMask still_ahead(std::size_t begin) const {
+    return begin < index_ ? ~BlockMask{0} << (index_ % kBlockCells) : ~BlockMask{0};
   }
 
   bool likely_sweep(BitCoder& home, int plane, std::uint8_t activity, int level, int c) {
@@ -100,12 +95,12 @@ class DetailPlanes {
     const ChannelCells cells = state_.cells(c, level);
     const std::size_t first_cell = state_.level_begin(level);
     auto& contexts = coding_.contexts.significance[coding_.kind(c)][coding_.level_class(level)];
-    return for_groups(cells, level, [&](std::size_t begin) {
+    return for_blocks(cells, level, [&](std::size_t begin) {
       const auto likely = [&] {
         return likely_cells(cells.flags + begin, cells.around + begin, cells.above + begin,
                             activity);
       };
-      for (GroupMask left = likely() & still_ahead(begin); left != 0;) {
+      for (BlockMask left = likely() & still_ahead(begin); left != 0;) {
         const std::size_t i = begin + static_cast<std::size_t>(std::countr_zero(left));
         left &= left - 1;
         const bool truth = coding_.details.significant(c, first_cell + i, plane);
@@ -118,7 +113,7 @@ class DetailPlanes {
         if (!coding_.code_sign(coder, plane, level, c, i)) return stop_at(i);
         sign_due_ = false;
         // It may have made cells ahead likely; those behind it have had their turn.
-        left = likely() & ~GroupMask{1} << (i % kGroupCells);
+        left = likely() & ~BlockMask{1} << (i % kBlockCells);
       }
       return true;
     });
@@ -131,8 +126,9 @@ class DetailPlanes {
     const std::size_t first_cell = state_.level_begin(level);
     auto& contexts = coding_.contexts.refinement;
     const int half = 1 << plane;
-    return for_groups(cells, level, [&](std::size_t begin) {
-      GroupMask left = refinable_cells(cells.flags + begin) & still_ahead(begin);
+    bool changed = false;
+    const bool done = for_blocks(cells, level, [&](std::size_t begin) {
+      BlockMask left = refinable_cells(cells.flags + begin) & still_ahead(begin);
       for (; left != 0; left &= left - 1) {
         const std::size_t i = begin + static_cast<std::size_t>(std::countr_zero(left));
         const int value = values[i];
@@ -145,10 +141,12 @@ class DetailPlanes {
         if (coder.starved()) return stop_at(i);
         const int outwards = bit ? half : -half;
         values[i] = static_cast<Value>(value + (value < 0 ? -outwards : outwards));
-        state_.note_change(level);
+        changed = true;
       }
       return true;
     });
+    if (changed) state_.note_change(level);
+    return done;
   }
 
   DetailCoding<Details> coding_;

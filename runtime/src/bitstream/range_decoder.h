@@ -88,7 +88,7 @@ class RangeDecoder {
     window_ -= high & ~mask;
     range_ = range_ - bound + ((2 * bound - range_) & mask);
     // The range has 9 bits or more; whole bytes bring it back to 25 or more.
-    const int shift = std::countl_zero(static_cast<std::uint32_t>(range_)) & 24;
+    const int shift = std::countl_zero(static_cast<std::uint32_t>(range_) | 1u) & 24;
     range_ <<= shift;
     window_ <<= shift;
     known_bits_ -= shift;
