@@ -22,10 +22,11 @@ class alignas(8) AdaptiveBit {
   /// Without branches: what comes next is a jump on the bit itself, and one is enough.
   void update(bool bit) {
     const std::uint32_t mask = (0u - std::uint32_t{bit}) & 0xffffu;
-    const Windows windows = kWindows[seen_];
+    const std::uint8_t seen = seen_;
+    const Windows windows = kWindows[seen];
     fast_ = moved(fast_, mask, windows.fast);
     slow_ = moved(slow_, mask, windows.slow);
-    seen_ = static_cast<std::uint8_t>(seen_ + (seen_ < kSeenEnough ? 1 : 0));
+    seen_ = static_cast<std::uint8_t>(seen + (seen < kSeenEnough ? 1 : 0));
   }
 
  private:

@@ -68,6 +68,7 @@ class RangeDecoder {
   }
 
  private:
+  static constexpr std::uint64_t kSmallestRange = std::uint64_t{1} << 24;
   // Of the register's four bytes, the last two are never written at the end of a sequence.
   static constexpr std::size_t kUnneededBytes = 2;
 
@@ -87,13 +88,17 @@ class RangeDecoder {
     const std::uint64_t mask = std::uint64_t{0} - std::uint64_t{one};
     window_ -= high & ~mask;
     range_ = range_ - bound + ((2 * bound - range_) & mask);
-    // The range has 9 bits or more; whole bytes bring it back to 25 or more.
+    if (range_ < kSmallestRange) [[unlikely]] normalise();
+    return one;
+  }
+
+  // The range has 9 bits or more; whole bytes bring it back to 25 or more.
+  void normalise() {
     const int shift = std::countl_zero(static_cast<std::uint32_t>(range_) | 1u) & 24;
     range_ <<= shift;
     window_ <<= shift;
     known_bits_ -= shift;
     if (known_bits_ < 32) refill();
-    return one;
   }
 
   void refill() {
