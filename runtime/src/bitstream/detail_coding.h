@@ -34,7 +34,7 @@ class DetailCoding {
   template <class BitCoder>
   bool code_sign(BitCoder& coder, int plane, int level, int c, std::size_t index) {
     const bool truth = details.negative(c, state.level_begin(level) + index);
-    const bool negative = coder.code(truth, sign_context(level, c, index));
+    const bool negative = coder.code_even(truth, sign_context(level, c, index));
     if (coder.starved()) return false;
     state.set_significant(c, level, index, plane, negative);
     return true;

@@ -136,7 +136,7 @@ class DetailPlanes {
         const int known = std::abs(value) >> plane;
         const int which = int{known >= 8} + int{known >= 16};
         const int activity = std::min(255, cells.around[i] + cells.above[i]);
-        const bool bit = coder.code(coding_.details.bit(c, first_cell + i, plane),
+        const bool bit = coder.code_even(coding_.details.bit(c, first_cell + i, plane),
                                     contexts[which][kRefinementClass[activity]]);
         if (coder.starved()) return stop_at(i);
         const int outwards = bit ? half : -half;

@@ -52,7 +52,7 @@ class PositionPlanes {
       if (tells_nothing(plane)) {
         upper = coder.code_raw(truly_upper);
       } else {
-        upper = coder.code(truly_upper != pull.down, context(pull, plane)) != pull.down;
+        upper = coder.code_even(truly_upper != pull.down, context(pull, plane)) != pull.down;
       }
       if (coder.starved()) return false;
       settle(upper, plane, pull);

@@ -38,10 +38,23 @@ class RangeDecoder {
   /// Decodes one bit; the argument is there for the encoder's sake.
   bool code(bool /*bit*/, AdaptiveBit& context) {
     const std::uint64_t bound = (range_ * context.probability_of_one()) >> 16;
-    if (known_bits_ < 32) [[unlikely]] {
-      starved_ = is_open(window_, known_bits_, bound);
-      if (starved_) return false;
+    if (is_open(bound)) [[unlikely]] return false;
+    // A jump: most bits are foreseen, so the next decision can begin before this one is known.
+    const bool one = (window_ >> 32) < bound;
+    if (one) {
+      take_one(bound);
+      context.update(true);
+    } else {
+      take_zero(bound);
+      context.update(false);
     }
+    return one;
+  }
+
+  /// The same, faster for a bit that is hard to foresee if the caller does not jump on it either.
+  bool code_even(bool /*bit*/, AdaptiveBit& context) {
+    const std::uint64_t bound = (range_ * context.probability_of_one()) >> 16;
+    if (is_open(bound)) [[unlikely]] return false;
     const bool one = take(bound);
     context.update(one);
     return one;
@@ -50,10 +63,7 @@ class RangeDecoder {
   /// Decodes one equiprobable bit.
   bool code_raw(bool /*bit*/) {
     const std::uint64_t bound = range_ >> 1;
-    if (known_bits_ < 32) [[unlikely]] {
-      starved_ = is_open(window_, known_bits_, bound);
-      if (starved_) return false;
-    }
+    if (is_open(bound)) [[unlikely]] return false;
     return take(bound);
   }
 
@@ -72,8 +82,14 @@ class RangeDecoder {
   // Of the register's four bytes, the last two are never written at the end of a sequence.
   static constexpr std::size_t kUnneededBytes = 2;
 
-  /// Whether the bits that are missing from the register decide.
-  static bool is_open(std::uint64_t window, int known_bits, std::uint64_t bound) {
+  // Whether bits that are missing from the register decide: then the decoder is starved.
+  bool is_open(std::uint64_t bound) {
+    if (known_bits_ >= 32) [[likely]] return false;
+    starved_ = differs(window_, known_bits_, bound);
+    return starved_;
+  }
+
+  static bool differs(std::uint64_t window, int known_bits, std::uint64_t bound) {
     if (known_bits <= 0) return true;
     const std::uint64_t code = window >> 32;
     const std::uint64_t mask = (std::uint64_t{1} << (32 - known_bits)) - 1;
@@ -81,12 +97,21 @@ class RangeDecoder {
     return code < bound && code + mask >= bound;
   }
 
+  void take_one(std::uint64_t bound) {
+    range_ = bound;
+    if (range_ < kSmallestRange) normalise();
+  }
+  void take_zero(std::uint64_t bound) {
+    window_ -= bound << 32;
+    range_ -= bound;
+    if (range_ < kSmallestRange) [[unlikely]] normalise();
+  }
+
+  // All ones or all zeros in a mask, because compilers make jumps of a choice.
   bool take(std::uint64_t bound) {
-    const std::uint64_t high = bound << 32;
-    const bool one = window_ < high;
-    // All ones or all zeros: compilers make jumps of a choice, and here they are mispredicted.
+    const bool one = (window_ >> 32) < bound;
     const std::uint64_t mask = std::uint64_t{0} - std::uint64_t{one};
-    window_ -= high & ~mask;
+    window_ -= (bound << 32) & ~mask;
     range_ = range_ - bound + ((2 * bound - range_) & mask);
     if (range_ < kSmallestRange) [[unlikely]] normalise();
     return one;
