@@ -30,22 +30,30 @@ class KnownDetails {
   /// Finds the trees in which an open cell reaches `plane`, from the finest level up.
   void begin_cleanup(const bitstream::DetailState& state, int plane) {
     for (int c = 0; c < bitstream::kChannelCount; ++c) {
-      const std::vector<std::uint8_t>& flags = state.channel(c).flags;
-      trees_[c].resize(flags.size());
-      for (std::size_t i = 0; i < flags.size(); ++i) {
-        trees_[c][i] = flags[i] == 0 && significant(c, i, plane) ? 1 : 0;
-      }
-      for (int level = state.levels() - 1; level > 0; --level) {
-        const std::size_t parents = state.level_begin(level - 1);
-        const std::size_t children = state.level_begin(level);
-        for (std::size_t i = 0; i < state.level_size(level); ++i) {
-          trees_[c][parents + i / 4] |= trees_[c][children + i];
-        }
+      trees_[c].assign(state.level_begin(state.levels()), 0);
+      for (int level = state.levels() - 1; level >= 0; --level) {
+        find_trees(state, c, level, plane);
       }
     }
   }
 
  private:
+  // Marks the trees of a level whose children are marked already, and passes the marks on.
+  void find_trees(const bitstream::DetailState& state, int c, int level, int plane) {
+    const std::size_t begin = state.level_begin(level);
+    std::uint8_t* trees = trees_[c].data() + begin;
+    std::uint8_t* parents = level == 0 ? nullptr : trees_[c].data() + state.level_begin(level - 1);
+    // Where nothing is active no cell is coded yet; an absent one holds zero.
+    const std::uint8_t* flags =
+        level < state.active_levels(c) ? state.cells(c, level).flags : nullptr;
+    for (std::size_t i = 0; i < state.level_size(level); ++i) {
+      const bool is_coded =
+          flags != nullptr && (flags[i] & (bitstream::kSignificant | bitstream::kVisited)) != 0;
+      if (!is_coded && significant(c, begin + i, plane)) trees[i] = 1;
+      if (parents != nullptr) parents[i / 4] |= trees[i];
+    }
+  }
+
   std::uint32_t magnitude(int c, std::size_t cell) const {
     return static_cast<std::uint32_t>(std::abs(coefficients_->channels[c][cell])) >> 1;
   }

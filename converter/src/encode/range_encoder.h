@@ -14,12 +14,18 @@ namespace zerotree::encode {
 /// that moves; a carry out of `low` runs into bytes that are held back until it is settled.
 class RangeEncoder {
  public:
+  /// What a pass works with; a decoder's is a copy.
+  using Local = RangeEncoder&;
+
   /// Codes `bit` with the context's probability, lets the context learn it, and returns it.
   bool code(bool bit, bitstream::AdaptiveBit& context) {
     narrow(bit, (range_ * context.probability_of_one()) >> 16);
     context.update(bit);
     return bit;
   }
+
+  /// The same; a decoder's differs in speed.
+  bool code_even(bool bit, bitstream::AdaptiveBit& context) { return code(bit, context); }
 
   /// Codes one equiprobable bit and returns it.
   bool code_raw(bool bit) {

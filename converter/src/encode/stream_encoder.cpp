@@ -94,7 +94,7 @@ StreamBytes encode_stream(const StreamContent& content) {
   }
   bitstream::SharpTagCoding tags(edges.edges, content.base.vertex_count);
   tags.set_tags(content.base);
-  bitstream::DetailState state(edges, header.levels);
+  bitstream::DetailState state(edges, header.levels, header.planes);
   bitstream::CodedPasses<RangeEncoder, KnownDetails> passes(
       header, tags, positions, state, KnownDetails(content.coefficients), content.positions);
   while (!passes.done()) {

@@ -34,15 +34,15 @@ inline constexpr auto kRefinementClass = byte_classes(kRefinementCuts);
 inline constexpr auto kQuietClass = byte_classes(kQuietCuts);
 inline constexpr auto kLeanClass = byte_classes(kLeanCuts);
 
-/// 0 none, 1 positive, 2 negative.
+/// 0 none, 1 positive, 2 negative. Signs are hard to foresee, so there is no jump on them.
 constexpr int sign_class(std::int32_t value) {
-  return value == 0 ? 0 : value > 0 ? 1 : 2;
+  return int{value > 0} + 2 * int{value < 0};
 }
 
 /// 0..6: none, then three strengths of leaning to positive and three to negative.
 constexpr int lean_class(int lean) {
   const int strength = kLeanClass[static_cast<std::size_t>(lean < 0 ? -lean : lean)];
-  return lean < 0 ? strength + static_cast<int>(kLeanCuts.size()) : strength;
+  return strength + int{lean < 0} * static_cast<int>(kLeanCuts.size());
 }
 
 /// All contexts of the details. One value per decision's kind and situation; levels and channels

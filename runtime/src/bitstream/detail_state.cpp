@@ -1,37 +1,36 @@
 #include "bitstream/detail_state.h"
 
-#include <algorithm>
+#include <bit>
+#include <cstring>
 
 namespace zerotree::bitstream {
 namespace {
 
-// Weights of a new significance in sixteenths of the threshold, found by experiment.
-constexpr int kFaceNeighbour = 13;
-constexpr int kRingNeighbour = 5;
-constexpr int kParent = 6;
-constexpr int kOtherChannel = 3;
-constexpr int kFaceLean = 6;
-constexpr int kCollinearLean = -2;
+constexpr std::size_t kBytesPerBlock = kBlockCells * (3 * kChannelCount + 1) + kChannelCount;
 
-void add(std::uint8_t& sum, int weight) {
-  sum = static_cast<std::uint8_t>(std::min(255, sum + weight));
-}
-
-void add(std::int8_t& sum, int weight) {
-  sum = static_cast<std::int8_t>(std::clamp(sum + weight, -127, 127));
+// Where bit planes are many, the coarse levels, which hold the large details, begin wide.
+bool begins_wide(int level, int levels, int planes) {
+  return planes > LevelValues::kNarrowPlanes && level <= levels - 3;
 }
 
 }  // namespace
 
-DetailState::DetailState(const BaseEdges& base, int levels) {
-  coefficients_.base_edge_count = base.edges.size();
-  coefficients_.levels = levels;
+DetailState::DetailState(const BaseEdges& base, int levels, int planes,
+                         std::pmr::memory_resource* resource)
+    : sides_(base.edges.size(), resource), levels_(resource) {
+  number_sides(base);
+  levels_.resize(levels);
+  for (int level = 0; level < levels; ++level) {
+    allocate(levels_[level], level, begins_wide(level, levels, planes), resource);
+  }
+}
+
+void DetailState::number_sides(const BaseEdges& base) {
   const auto edge_and_side = [&](std::uint32_t face, int local) {
     const std::uint32_t e = base.face_edges[face][local];
     const bool first = base.edges[e].faces[0] == face && base.edges[e].local[0] == local;
     return (e << 1) | (first ? 0u : 1u);
   };
-  sides_.resize(base.edges.size());
   for (std::size_t e = 0; e < base.edges.size(); ++e) {
     for (int s = 0; s < 2; ++s) {
       const std::uint32_t face = base.edges[e].faces[s];
@@ -41,131 +40,112 @@ DetailState::DetailState(const BaseEdges& base, int levels) {
       }
     }
   }
-  const std::size_t cells = level_begin(levels);
+}
+
+void DetailState::allocate(Level& level, int number, bool wide,
+                           std::pmr::memory_resource* resource) {
+  const std::size_t blocks = block_count(number);
+  level.memory = RawMemory(blocks * kBytesPerBlock, resource);
+  auto* next = static_cast<std::uint8_t*>(level.memory.data());
+  const auto take = [&next](std::size_t size) { return std::exchange(next, next + size); };
   for (int c = 0; c < kChannelCount; ++c) {
-    coefficients_.channels[c].assign(cells, 0);
-    channels_[c].flags.assign(cells, 0);
-    channels_[c].around.assign(cells, 0);
-    channels_[c].above.assign(cells, 0);
-    channels_[c].open.assign(cells, 0);
+    ChannelCells& cells = level.cells[c];
+    for (std::uint8_t** bytes : {&cells.flags, &cells.around, &cells.above}) {
+      *bytes = take(blocks * kBlockCells);
+    }
+    if (c == kNormal) cells.lean = reinterpret_cast<std::int8_t*>(take(blocks * kBlockCells));
+    level.values[c] = LevelValues(level_size(number), wide, resource);
   }
-  channels_[kNormal].lean.assign(cells, 0);
-  mark_absent();
+  for (ChannelCells& cells : level.cells) cells.touched = take(blocks);
 }
 
-std::uint64_t DetailState::memory(std::uint64_t base_edge_count, int levels) {
-  constexpr std::uint64_t kPerCell = kChannelCount * (sizeof(std::int32_t) + 4) + 1;
-  return base_edge_count * (cells_below(levels) * kPerCell + sizeof(std::array<Side, 2>));
+std::uint64_t DetailState::memory(std::uint64_t base_edge_count, int levels, int planes) {
+  const bool may_widen = planes > LevelValues::kNarrowPlanes;
+  std::uint64_t bytes = base_edge_count * sizeof(std::array<Side, 2>) + levels * sizeof(Level);
+  for (int level = 0; level < levels; ++level) {
+    const std::uint64_t size = base_edge_count << (2 * level);
+    bytes += (size + kBlockCells - 1) / kBlockCells * kBytesPerBlock;
+    bytes += size * kChannelCount * (may_widen ? sizeof(std::int32_t) : sizeof(std::int16_t));
+    // While values are widened, both sorts are there.
+    if (may_widen && level + 1 == levels) bytes += size * sizeof(std::int16_t);
+  }
+  return bytes;
 }
 
-void DetailState::mark_absent() {
+void DetailState::write_level(int c, int level) {
+  const ChannelCells& cells = levels_[level].cells[c];
+  const std::size_t blocks = block_count(level);
+  for (std::uint8_t* bytes : {cells.flags, cells.around, cells.above}) {
+    std::memset(bytes, 0, blocks * kBlockCells);
+  }
+  if (cells.lean != nullptr) std::memset(cells.lean, 0, blocks * kBlockCells);
+  std::memset(cells.touched, 0, blocks);
+  mark_absent(level, cells.flags);
+}
+
+void DetailState::mark_absent(int level, std::uint8_t* flags) const {
+  const std::size_t size = level_size(level);
+  std::fill(flags + size, flags + block_count(level) * kBlockCells, kAbsent);
+  const std::size_t image = std::size_t{1} << (2 * level);
   for (std::size_t e = 0; e < sides_.size(); ++e) {
     if (sides_[e][1].exists) continue;
-    for (int level = 0; level < levels(); ++level) {
-      const std::size_t begin = level_begin(level) + (e << (2 * level));
-      for (std::size_t m = 0; m < std::size_t{1} << (2 * level); ++m) {
-        const EdgeCell cell = cell_at(level, m);
-        if (cell.p >= cell.q) continue;
-        for (ChannelState& channel : channels_) channel.flags[begin + m] = kAbsent;
-      }
+    for (std::size_t i = e * image; i < (e + 1) * image; ++i) {
+      const SpreadCell cell = spread_cell_at(level, i);
+      if (cell.p < cell.q) flags[i] = kAbsent;
     }
   }
 }
 
 void DetailState::begin_plane() {
-  for (ChannelState& channel : channels_) {
-    for (std::uint8_t& f : channel.flags) f = static_cast<std::uint8_t>(f & ~kVisited);
-    for (auto* sums : {&channel.around, &channel.above}) {
-      for (std::uint8_t& s : *sums) s = static_cast<std::uint8_t>(s > 127 ? 255 : s * 2);
-    }
-    for (std::int8_t& s : channel.lean) {
-      s = static_cast<std::int8_t>(s > 63 ? 127 : s < -63 ? -127 : s * 2);
-    }
-  }
-}
-
-void DetailState::begin_cleanup() {
-  for (ChannelState& channel : channels_) {
-    const std::uint8_t* flags = channel.flags.data();
-    std::uint8_t* open = channel.open.data();
-    for (std::size_t i = 0; i < channel.flags.size(); ++i) open[i] = flags[i] == 0;
-    for (int level = levels() - 1; level > 0; --level) {
-      std::uint8_t* parents = open + level_begin(level - 1);
-      const std::uint8_t* children = open + level_begin(level);
-      for (std::size_t i = 0; i < level_size(level - 1); ++i, children += 4) {
-        parents[i] |= children[0] | children[1] | children[2] | children[3];
+  for (int c = 0; c < kChannelCount; ++c) {
+    for (int level = 0; level < active_levels(c); ++level) {
+      const ChannelCells cells = levels_[level].cells[c];
+      const std::size_t blocks = block_count(level);
+      for (std::size_t block = 0; block < blocks; ++block) {
+        if (cells.touched[block] == 0) continue;
+        const std::size_t begin = block * kBlockCells;
+        forget_visits(cells.flags + begin);
+        double_sums(cells.around + begin);
+        double_sums(cells.above + begin);
+        if (cells.lean != nullptr) double_leans(cells.lean + begin);
       }
     }
   }
 }
 
-void DetailState::set_significant(int c, int level, std::size_t index, int plane, bool negative) {
-  const std::size_t cell = level_begin(level) + index;
-  const std::int32_t magnitude = std::int32_t{3} << plane;
-  coefficients_.channels[c][cell] = negative ? -magnitude : magnitude;
-  channels_[c].flags[cell] |= kSignificant | kVisited;
-  detailed_levels_ = std::max(detailed_levels_, level + 1);
-
-  const int sign = negative ? -1 : 1;
-  const EdgeCell where = cell_at(level, index);
-  scatter_to_faces(c, level, where, sign);
-  scatter_to_ring(c, level, where, sign);
-  for (int other = 0; other < kChannelCount; ++other) {
-    if (other != c) add(channels_[other].above[cell], kOtherChannel);
-  }
-  if (level + 1 == levels()) return;
-  const std::size_t child = level_begin(level + 1) + 4 * index;
-  for (std::size_t k = 0; k < 4; ++k) add(channels_[c].above[child + k], kParent);
-}
-
-// The edge lies in row `row` of the image's side, `place` edges after the corner where the side's
-// local edge begins. Its two triangles are the one above it, whose corner nearest to each base
-// corner has the barycentric coordinates below, and the one under it.
-void DetailState::scatter_to_faces(int c, int level, const EdgeCell& cell, int sign) {
-  const std::uint32_t last = (1u << level) - 1;
-  const auto side_at = [&](int s, std::uint32_t row, std::uint32_t place) {
-    const Side& side = sides_[cell.base_edge][s];
-    if (!side.exists) return;
-    const std::uint32_t rest = last - row - place;
-    scatter_to_triangle(c, level, side, {rest, place, row}, 0, sign);
-    if (row > 0) scatter_to_triangle(c, level, side, {rest, place, row - 1}, 1, sign);
-  };
-  if (cell.p >= cell.q) side_at(0, cell.p - cell.q, cell.q);
-  // Side 1 runs through the base edge against its direction, so places count from the other end.
-  if (cell.p <= cell.q) side_at(1, cell.q - cell.p, last - cell.q);
-}
-
-void DetailState::scatter_to_triangle(int c, int level, const Side& side,
-                                      std::array<std::uint32_t, 3> corner, std::uint32_t row_offset,
-                                      int sign) {
-  const std::uint32_t last = (1u << level) - 1;
-  for (int j = 1; j < 3; ++j) {
-    const std::uint32_t edge = side.edges[j] >> 1;
-    const std::uint32_t row = corner[(j + 2) % 3] + row_offset;
-    const std::uint32_t place = corner[(j + 1) % 3];
-    const EdgeCell neighbour = (side.edges[j] & 1) == 0
-                                   ? EdgeCell{edge, place + row, place}
-                                   : EdgeCell{edge, last - row - place, last - place};
-    const std::size_t i = level_begin(level) + cell_index(level, neighbour);
-    add(channels_[c].around[i], kFaceNeighbour);
-    if (c == kNormal) add(channels_[c].lean[i], sign * kFaceLean);
-  }
-}
-
-void DetailState::scatter_to_ring(int c, int level, const EdgeCell& cell, int sign) {
-  const std::uint32_t last = (1u << level) - 1;
-  const std::size_t begin = level_begin(level);
-  const std::uint32_t p_low = cell.p - (cell.p > 0), p_high = std::min(cell.p + 1, last);
-  const std::uint32_t q_low = cell.q - (cell.q > 0), q_high = std::min(cell.q + 1, last);
-  for (std::uint32_t p = p_low; p <= p_high; ++p) {
-    for (std::uint32_t q = q_low; q <= q_high; ++q) {
-      if (p == cell.p && q == cell.q) continue;
-      const std::size_t i = begin + cell_index(level, {cell.base_edge, p, q});
-      add(channels_[c].around[i], kRingNeighbour);
-      const bool collinear = p - q == cell.p - cell.q;
-      if (c == kNormal && collinear) add(channels_[c].lean[i], sign * kCollinearLean);
+void DetailState::begin_cleanup() {
+  for (int c = 0; c < kChannelCount; ++c) {
+    // Below the last active level everything is open, so it has no closed cell but absent ones.
+    for (int level = active_levels(c) - 2; level >= 0; --level) {
+      const ChannelCells cells = levels_[level].cells[c];
+      const std::uint8_t* children = levels_[level + 1].cells[c].flags;
+      const std::size_t blocks = block_count(level);
+      for (std::size_t block = 0; block < blocks; ++block) {
+        if (cells.touched[block] == 0) continue;
+        const std::size_t begin = block * kBlockCells;
+        close_cells(cells.flags + begin, children + 4 * begin,
+                    std::min(kBlockCells, level_size(level) - begin), closed_flags(level + 1));
+      }
     }
   }
+}
+
+CoefficientSet DetailState::coefficients() const {
+  CoefficientSet set{base_edge_count(), levels(), {}};
+  for (int c = 0; c < kChannelCount; ++c) {
+    set.channels[c].assign(level_begin(levels()), 0);
+    for (int level = 0; level < levels(); ++level) {
+      if (!has_details(c, level)) continue;
+      std::int32_t* target = set.channels[c].data() + level_begin(level);
+      const LevelValues& values = levels_[level].values[c];
+      for (std::size_t i = 0; i < level_size(level); ++i) target[i] = values.get(i);
+    }
+  }
+  return set;
+}
+
+int DetailState::detailed_levels() const {
+  return static_cast<int>(std::bit_width(detailed_[0] | detailed_[1] | detailed_[2]));
 }
 
 }  // namespace zerotree::bitstream

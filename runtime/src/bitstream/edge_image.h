@@ -44,4 +44,33 @@ constexpr EdgeCell cell_at(int level, std::size_t index) {
           gather_bits(morton)};
 }
 
+// Arithmetic on spread numbers, whose bits stand at the even places: an index holds two of them, so
+// a step to a neighbour needs no gathering and no spreading.
+inline constexpr std::uint32_t kSpreadMask = 0x55555555u;
+constexpr std::uint32_t spread_sum(std::uint32_t a, std::uint32_t b) {
+  return ((a | ~kSpreadMask) + b) & kSpreadMask;
+}
+constexpr std::uint32_t spread_difference(std::uint32_t a, std::uint32_t b) {
+  return (a - b) & kSpreadMask;
+}
+/// The largest coordinate of a level, spread.
+constexpr std::uint32_t spread_last(int level) {
+  return ((std::uint32_t{1} << (2 * level)) - 1) & kSpreadMask;
+}
+
+/// A cell with spread coordinates. They compare like plain ones.
+struct SpreadCell {
+  std::uint32_t base_edge, p, q;
+};
+
+constexpr SpreadCell spread_cell_at(int level, std::size_t index) {
+  const auto morton = static_cast<std::uint32_t>(index & ((std::size_t{1} << (2 * level)) - 1));
+  return {static_cast<std::uint32_t>(index >> (2 * level)), (morton >> 1) & kSpreadMask,
+          morton & kSpreadMask};
+}
+
+constexpr std::size_t cell_index(int level, const SpreadCell& cell) {
+  return (std::size_t{cell.base_edge} << (2 * level)) | ((cell.p << 1) | cell.q);
+}
+
 }  // namespace zerotree::bitstream

@@ -5,17 +5,18 @@
 
 namespace zerotree::bitstream {
 
-PositionPlanes::PositionPlanes(const BaseTopology& base, int bits)
+PositionPlanes::PositionPlanes(const BaseTopology& base, int bits,
+                               std::pmr::memory_resource* resource)
     : unknown_(bits),
-      values_(std::size_t{base.vertex_count} * 3, std::int32_t{1} << bits),
-      ring_begin_(std::size_t{base.vertex_count} + 1, 0),
-      ring_(base.triangles.size() * 6),
+      values_(std::size_t{base.vertex_count} * 3, std::int32_t{1} << bits, resource),
+      ring_begin_(std::size_t{base.vertex_count} + 1, 0, resource),
+      ring_(base.triangles.size() * 6, resource),
       spread_((std::int64_t{1} << (bits + kSpreadFraction)) / 4) {
   for (const auto& t : base.triangles) {
     for (const std::uint32_t v : t) ring_begin_[v + 1] += 2;
   }
   for (std::size_t v = 0; v < base.vertex_count; ++v) ring_begin_[v + 1] += ring_begin_[v];
-  std::vector<std::size_t> end(ring_begin_.begin(), ring_begin_.end() - 1);
+  std::pmr::vector<std::size_t> end(ring_begin_.begin(), ring_begin_.end() - 1, resource);
   for (const auto& t : base.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       ring_[end[t[k]]++] = t[(k + 1) % 3];

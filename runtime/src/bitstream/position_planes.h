@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -29,16 +30,20 @@ class PositionPlanes {
  public:
   PositionPlanes() = default;
   /// `bits` per coordinate; triangles must name vertices below vertex_count.
-  PositionPlanes(const BaseTopology& base, int bits);
+  PositionPlanes(const BaseTopology& base, int bits,
+                 std::pmr::memory_resource* resource = std::pmr::new_delete_resource());
 
   /// x, y, z per vertex.
   std::span<const std::int32_t> values() const { return values_; }
   int unknown_planes() const { return unknown_; }
+  /// Coordinates coded so far in the highest unknown plane.
+  std::size_t coded_in_plane() const { return next_; }
 
   /// Codes the highest unknown plane; called until it returns true, false means that the coder is
   /// starved. `truth` holds the encoder's integers (x, y, z per vertex), a decoder's is empty.
   template <class BitCoder>
-  bool code_plane(BitCoder& coder, std::span<const std::uint32_t> truth) {
+  bool code_plane(BitCoder& home, std::span<const std::uint32_t> truth) {
+    typename BitCoder::Local coder(home);
     const int plane = unknown_ - 1;
     for (; next_ < values_.size(); ++next_) {
       const bool truly_upper = !truth.empty() && ((truth[next_] >> plane) & 1) != 0;
@@ -47,7 +52,7 @@ class PositionPlanes {
       if (tells_nothing(plane)) {
         upper = coder.code_raw(truly_upper);
       } else {
-        upper = coder.code(truly_upper != pull.down, context(pull, plane)) != pull.down;
+        upper = coder.code_even(truly_upper != pull.down, context(pull, plane)) != pull.down;
       }
       if (coder.starved()) return false;
       settle(upper, plane, pull);
@@ -77,10 +82,10 @@ class PositionPlanes {
 
   int unknown_ = 0;
   std::size_t next_ = 0;
-  std::vector<std::int32_t> values_;
+  std::pmr::vector<std::int32_t> values_;
   // Neighbours of vertex v: ring_[ring_begin_[v]] .. ring_[ring_begin_[v + 1]], two per triangle.
-  std::vector<std::size_t> ring_begin_;
-  std::vector<std::uint32_t> ring_;
+  std::pmr::vector<std::size_t> ring_begin_;
+  std::pmr::vector<std::uint32_t> ring_;
   std::int64_t spread_ = 0;  // mean distance of late between a coordinate and its neighbours' mean
   std::array<AdaptiveBit, kStrengths> contexts_;  // by how strongly the neighbours pull
 };

@@ -1,7 +1,5 @@
 #include "bitstream/sharp_tag_coding.h"
 
-#include <utility>
-
 namespace zerotree::bitstream {
 namespace {
 
@@ -12,12 +10,13 @@ std::array<std::uint32_t, 2> ascending(const BaseEdge& edge) {
 
 }  // namespace
 
-SharpTagCoding::SharpTagCoding(std::vector<BaseEdge> edges, std::uint32_t vertex_count)
-    : edges_(std::move(edges)),
-      creases_at_(vertex_count, 0),
-      edges_left_(vertex_count, 0),
-      edge_flags_(edges_.size(), 0),
-      vertex_flags_(vertex_count, 0) {
+SharpTagCoding::SharpTagCoding(std::span<const BaseEdge> edges, std::uint32_t vertex_count,
+                               std::pmr::memory_resource* resource)
+    : edges_(edges),
+      creases_at_(vertex_count, 0, resource),
+      edges_left_(vertex_count, 0, resource),
+      edge_flags_(edges_.size(), 0, resource),
+      vertex_flags_(vertex_count, 0, resource) {
   for (const BaseEdge& edge : edges_) {
     if (edge.faces[1] == kNone) continue;
     for (const std::uint32_t v : edge.vertices) ++edges_left_[v];

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "bitstream/adaptive_bit.h"
@@ -17,11 +19,13 @@ namespace zerotree::bitstream {
 class SharpTagCoding {
  public:
   SharpTagCoding() = default;
-  SharpTagCoding(std::vector<BaseEdge> edges, std::uint32_t vertex_count);
+  /// The edges must stay.
+  SharpTagCoding(std::span<const BaseEdge> edges, std::uint32_t vertex_count,
+                 std::pmr::memory_resource* resource = std::pmr::new_delete_resource());
 
   /// The encoder's truth: reads the tags of `base`.
   void set_tags(const BaseTopology& base);
-  /// The tags decoded, as BaseTopology holds them.
+  /// The tags decoded, as BaseTopology holds them. Allocates only what `base` has not reserved.
   void get_tags(BaseTopology& base) const;
 
   /// Called until it returns true; false means that the coder is starved.
@@ -60,11 +64,11 @@ class SharpTagCoding {
     return edges_left_[vertex] > 3 ? 1 : edges_left_[vertex] > 1 ? 3 : 4;
   }
 
-  std::vector<BaseEdge> edges_;
-  std::vector<std::uint32_t> creases_at_;  // crease edges known at each vertex
-  std::vector<std::uint32_t> edges_left_;  // interior edges not yet coded at each vertex
-  std::vector<std::uint8_t> edge_flags_;
-  std::vector<std::uint8_t> vertex_flags_;
+  std::span<const BaseEdge> edges_;
+  std::pmr::vector<std::uint32_t> creases_at_;  // crease edges known at each vertex
+  std::pmr::vector<std::uint32_t> edges_left_;  // interior edges not yet coded at each vertex
+  std::pmr::vector<std::uint8_t> edge_flags_;
+  std::pmr::vector<std::uint8_t> vertex_flags_;
   std::size_t next_edge_ = 0;
   std::size_t next_vertex_ = 0;
   std::array<std::array<AdaptiveBit, kSituations>, kSituations> crease_;

@@ -1,6 +1,7 @@
 #include "bitstream/stream_decoder.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,57 +16,80 @@ namespace zerotree::bitstream {
 struct StreamDecoder::State {
   using Passes = CodedPasses<RangeDecoder, UnknownDetails>;
 
-  explicit State(const Limits& reader_limits) : limits(reader_limits) {}
+  State(const Limits& reader_limits, std::pmr::memory_resource* reader_memory)
+      : limits(reader_limits), resource(reader_memory) {}
 
-  void run();
-  void read_stream_header();
+  void feed(std::span<const std::uint8_t> bytes);
+  std::span<const std::uint8_t> read_stream_header(std::span<const std::uint8_t> bytes);
+  void accept_header(const StreamHeader& read);
   void read_connectivity();
   void accept_external_base();
   void accept_base_edges();
   void run_passes();
+  void accept_tags();
   void fail(std::string why) {
     status = DecodeStatus::broken;
     reason = std::move(why);
     passes.reset();
-    details = {};
+    details.emplace();
   }
 
   Limits limits;
+  std::pmr::memory_resource* resource;
   bool external = false;
   BaseTopology external_base;
   std::vector<float> external_positions;
 
-  std::vector<std::uint8_t> bytes;
+  std::size_t fed = 0;
   DecodeStatus status = DecodeStatus::more_bytes_wanted;
   std::string reason;
   bool header_ready = false, base_ready = false;
+  bool base_changed = false;
   StreamHeader header;
+  // The first bytes, until they make a header.
+  std::array<std::uint8_t, kMostHeaderBytes> header_bytes{};
   std::size_t header_size = 0;
 
   BaseTopology base;
   BaseEdges numbering;
-  SharpTagCoding tags;
-  PositionPlanes positions;
-  DetailState details;
+  std::optional<SharpTagCoding> tags{std::in_place};
+  std::optional<PositionPlanes> positions{std::in_place};
+  std::optional<DetailState> details{std::in_place};
   RangeDecoder coder;
   BaseConnectivityCoder<RangeDecoder> connectivity{coder};
   std::optional<Passes> passes;
 };
 
-void StreamDecoder::State::run() {
+void StreamDecoder::State::feed(std::span<const std::uint8_t> bytes) {
   if (status != DecodeStatus::more_bytes_wanted) return;
-  if (!header_ready) read_stream_header();
+  fed += bytes.size();
+  if (!header_ready) bytes = read_stream_header(bytes);
   if (!header_ready || status != DecodeStatus::more_bytes_wanted) return;
-  coder.set_bytes(std::span<const std::uint8_t>(bytes).subspan(header_size));
+  coder.add_bytes(bytes);
   if (!passes) external ? accept_external_base() : read_connectivity();
   if (passes) run_passes();
 }
 
-void StreamDecoder::State::read_stream_header() {
+// Returns the bytes that follow the header, once it is complete.
+std::span<const std::uint8_t> StreamDecoder::State::read_stream_header(
+    std::span<const std::uint8_t> bytes) {
+  const std::size_t known = std::min(fed - bytes.size(), header_bytes.size());
+  const std::size_t added = std::min(bytes.size(), header_bytes.size() - known);
+  std::copy_n(bytes.begin(), added, header_bytes.begin() + known);
   StreamHeader read;
-  HeaderResult result = read_header(bytes, limits, read);
-  if (result.status == DecodeStatus::broken) return fail(std::move(result.reason));
-  if (result.status == DecodeStatus::more_bytes_wanted) return;
+  HeaderResult result =
+      read_header(std::span(header_bytes).first(known + added), limits, read);
+  if (result.status == DecodeStatus::broken) {
+    fail(std::move(result.reason));
+  } else if (result.status == DecodeStatus::done) {
+    header_size = result.size;
+    accept_header(read);
+    return bytes.subspan(header_size - known);
+  }
+  return {};
+}
+
+void StreamDecoder::State::accept_header(const StreamHeader& read) {
   if (read.external_base && !external) {
     return fail("the stream has no base mesh of its own and none was given");
   }
@@ -73,7 +97,6 @@ void StreamDecoder::State::read_stream_header() {
     return fail("the stream has a base mesh of its own, yet one was given");
   }
   header = read;
-  header_size = result.size;
   header_ready = true;
 }
 
@@ -102,7 +125,7 @@ void StreamDecoder::State::read_connectivity() {
       connectivity.decode({header.vertex_count, header.face_count}, base);
   if (connectivity.starved()) return;
   if (!decoded.ok()) return fail(std::string("base connectivity: ") + decoded.problem);
-  positions = PositionPlanes(base, header.positions.bits);
+  positions.emplace(base, header.positions.bits, resource);
   accept_base_edges();
 }
 
@@ -111,32 +134,47 @@ void StreamDecoder::State::accept_base_edges() {
   if (!numbering.error.empty()) return fail(numbering.error);
   const std::uint64_t edges = numbering.edges.size();
   if (base.vertex_count + edges * cells_below(header.levels) > limits.max_vertices ||
-      DetailState::memory(edges, header.levels) > limits.max_memory) {
+      DetailState::memory(edges, header.levels, header.planes) > limits.max_memory) {
     return fail("the stream has more vertices than the limit");
   }
-  details = DetailState(numbering, header.levels);
-  tags = SharpTagCoding(numbering.edges, base.vertex_count);
-  passes.emplace(header, tags, positions, details, UnknownDetails{},
+  details.emplace(numbering, header.levels, header.planes, resource);
+  tags.emplace(numbering.edges, base.vertex_count, resource);
+  if (header.has_sharp_tags) {
+    base.crease_edges.reserve(edges);
+    base.corner_vertices.reserve(base.vertex_count);
+  }
+  passes.emplace(header, *tags, *positions, *details, UnknownDetails{},
                  std::span<const std::uint32_t>{});
 }
 
 void StreamDecoder::State::run_passes() {
-  while (!passes->done()) {
-    if (!passes->advance(coder)) return;
-    if (base_ready) continue;
-    tags.get_tags(base);
-    if (header.has_sharp_tags && base.crease_edges.empty() && base.corner_vertices.empty()) {
-      return fail("the header announces sharp tags, but there are none");
-    }
-    base_ready = true;
+  const auto known_positions = [&] {
+    return std::pair(positions->unknown_planes(), positions->coded_in_plane());
+  };
+  const auto known_before = known_positions();
+  while (!passes->done() && passes->advance(coder)) {
+    if (!base_ready) accept_tags();
+    if (status == DecodeStatus::broken) return;
   }
-  status = DecodeStatus::done;
+  if (passes->done()) status = DecodeStatus::done;
+  if (known_positions() != known_before) base_changed = true;
 }
 
-StreamDecoder::StreamDecoder(const Limits& limits) : state_(std::make_unique<State>(limits)) {}
+void StreamDecoder::State::accept_tags() {
+  tags->get_tags(base);
+  if (header.has_sharp_tags && base.crease_edges.empty() && base.corner_vertices.empty()) {
+    return fail("the header announces sharp tags, but there are none");
+  }
+  base_ready = true;
+  base_changed = true;
+}
 
-StreamDecoder::StreamDecoder(BaseTopology base, std::vector<float> positions, const Limits& limits)
-    : state_(std::make_unique<State>(limits)) {
+StreamDecoder::StreamDecoder(const Limits& limits, std::pmr::memory_resource* resource)
+    : state_(std::make_unique<State>(limits, resource)) {}
+
+StreamDecoder::StreamDecoder(BaseTopology base, std::vector<float> positions, const Limits& limits,
+                             std::pmr::memory_resource* resource)
+    : state_(std::make_unique<State>(limits, resource)) {
   state_->external = true;
   state_->external_base = std::move(base);
   state_->external_positions = std::move(positions);
@@ -147,10 +185,7 @@ StreamDecoder::StreamDecoder(StreamDecoder&&) noexcept = default;
 StreamDecoder& StreamDecoder::operator=(StreamDecoder&&) noexcept = default;
 
 DecodeStatus StreamDecoder::feed(std::span<const std::uint8_t> bytes) {
-  if (state_->status == DecodeStatus::more_bytes_wanted) {
-    state_->bytes.insert(state_->bytes.end(), bytes.begin(), bytes.end());
-    state_->run();
-  }
+  state_->feed(bytes);
   return state_->status;
 }
 
@@ -175,17 +210,27 @@ const BaseTopology& StreamDecoder::base() const {
 const std::vector<BaseEdge>& StreamDecoder::base_edges() const {
   return state_->numbering.edges;
 }
-const CoefficientSet& StreamDecoder::coefficients() const {
-  return state_->details.coefficients();
+const DetailState& StreamDecoder::details() const {
+  return *state_->details;
+}
+CoefficientSet StreamDecoder::coefficients() const {
+  return state_->details->coefficients();
 }
 int StreamDecoder::detailed_levels() const {
-  return state_->details.detailed_levels();
+  return state_->details->detailed_levels();
+}
+int StreamDecoder::changed_from() const {
+  return state_->base_changed ? -1 : state_->details->changed_from();
+}
+void StreamDecoder::forget_changes() {
+  state_->base_changed = false;
+  state_->details->forget_changes();
 }
 
 std::vector<float> StreamDecoder::base_positions() const {
   if (state_->external) return state_->external_positions;
   const PositionQuantisation& quantisation = state_->header.positions;
-  const std::span<const std::int32_t> values = state_->positions.values();
+  const std::span<const std::int32_t> values = state_->positions->values();
   std::vector<float> result(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     result[i] = dequantise_coordinate(quantisation, i % 3, values[i]);
@@ -194,9 +239,8 @@ std::vector<float> StreamDecoder::base_positions() const {
 }
 
 std::size_t StreamDecoder::bytes_consumed() const {
-  const std::size_t fed = state_->bytes.size();
-  if (state_->status != DecodeStatus::done) return fed;
-  return std::min(fed, state_->header_size + state_->coder.sequence_length());
+  if (state_->status != DecodeStatus::done) return state_->fed;
+  return std::min(state_->fed, state_->header_size + state_->coder.sequence_length());
 }
 
 }  // namespace zerotree::bitstream

@@ -29,6 +29,9 @@ inline constexpr int kMostTangentRatioLog2 = 15;
 inline constexpr std::uint32_t kMostTransform = 3;
 inline constexpr std::uint32_t kMostFaces = 0x3fffffff;
 
+/// No header is longer.
+inline constexpr std::size_t kMostHeaderBytes = 40;
+
 /// How an embedded base's positions are quantised; see `dequantise_coordinate`.
 struct PositionQuantisation {
   /// Lowest corner of the cube of integers, in units of 2^origin_shift(bits) integers.

@@ -48,16 +48,13 @@ void expect_equal(const BaseTopology& a, const BaseTopology& b) {
   EXPECT_EQ(a.corner_vertices, b.corner_vertices);
 }
 
-SharpTagCoding tag_coding(const BaseTopology& topology) {
-  return SharpTagCoding(number_base_edges(topology).edges, topology.vertex_count);
-}
-
 /// Connectivity and, if there are any, sharp tags.
 Bytes encode(const BaseTopology& topology) {
   encode::RangeEncoder coder;
   EXPECT_EQ(encode_base_connectivity(coder, topology).problem, nullptr);
   if (topology.crease_edges.size() + topology.corner_vertices.size() > 0) {
-    SharpTagCoding tags = tag_coding(topology);
+    const BaseEdges numbering = number_base_edges(topology);
+    SharpTagCoding tags(numbering.edges, topology.vertex_count);
     tags.set_tags(topology);
     tags.code(coder);
   }
@@ -74,7 +71,8 @@ double round_trip(const BaseTopology& topology) {
   BaseTopology decoded;
   EXPECT_EQ(decode_base_connectivity(decoder, counts_of(ordered), decoded).problem, nullptr);
   if (ordered.crease_edges.size() + ordered.corner_vertices.size() > 0) {
-    SharpTagCoding tags = tag_coding(decoded);
+    const BaseEdges numbering = number_base_edges(decoded);
+    SharpTagCoding tags(numbering.edges, decoded.vertex_count);
     EXPECT_TRUE(tags.code(decoder));
     tags.get_tags(decoded);
   }
@@ -272,13 +270,13 @@ TEST(BaseConnectivity, GoesOnWhereBytesWereMissing) {
     BaseTopology decoded;
     std::size_t triangles = 0;
     for (std::size_t length = 0; length < bytes.size(); ++length) {
-      decoder.set_bytes(std::span(bytes).first(length));
+      if (length > 0) decoder.add_bytes(std::span(bytes).subspan(length - 1, 1));
       EXPECT_FALSE(pieces.decode(counts_of(base), decoded).ok());
       EXPECT_TRUE(pieces.starved());
       EXPECT_GE(decoded.triangles.size(), triangles);
       triangles = decoded.triangles.size();
     }
-    decoder.set_bytes(bytes);
+    decoder.add_bytes(std::span(bytes).last(1));
     EXPECT_TRUE(pieces.decode(counts_of(base), decoded).ok());
     expect_equal(decoded, base);
   }

@@ -126,11 +126,12 @@ TEST(DetailState, ScattersToTheEdgesOfTheSameTriangles) {
     }
     for (const auto& [index, neighbours] : expected) {
       DetailState state(numbering, kLevel + 1);
+      state.activate(kNormal, kLevel);
       state.set_significant(kNormal, kLevel, index, 0, false);
       std::set<std::size_t> found;
       for (std::size_t i = 0; i < ends.size(); ++i) {
         // Face neighbours lean towards the sign, collinear ones away, others not at all.
-        if (state.channel(kNormal).lean[state.level_begin(kLevel) + i] > 0) found.insert(i);
+        if (state.cells(kNormal, kLevel).lean[i] > 0) found.insert(i);
       }
       ASSERT_EQ(found, neighbours) << shape.name << " cell " << index;
     }
@@ -139,11 +140,12 @@ TEST(DetailState, ScattersToTheEdgesOfTheSameTriangles) {
 
 TEST(DetailState, CellsBeyondABoundaryAreAbsent) {
   const BaseEdges one = number_base_edges({3, {{0, 1, 2}}, {}, {}});
-  const DetailState state(one, 3);
+  DetailState state(one, 3);
+  state.activate(kTangent1, 2);
   for (int level = 0; level < 3; ++level) {
     int present = 0;
     for (std::size_t i = 0; i < state.level_size(level); ++i) {
-      present += state.channel(kTangent1).flags[state.level_begin(level) + i] == 0 ? 1 : 0;
+      present += state.cells(kTangent1, level).flags[i] == 0 ? 1 : 0;
     }
     const int n = 1 << level;
     EXPECT_EQ(present, 3 * n * (n + 1) / 2);

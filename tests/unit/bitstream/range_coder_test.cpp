@@ -55,9 +55,10 @@ Encoded encode_decisions(const std::vector<Decision>& decisions) {
 
 class Reader {
  public:
-  // Decodes on with more bytes; false if a decision comes out wrong.
+  // Decodes on with more bytes, those given before included; false if a decision comes out wrong.
   bool read(std::span<const std::uint8_t> bytes, const std::vector<Decision>& truth) {
-    coder.set_bytes(bytes);
+    coder.add_bytes(bytes.subspan(given));
+    given = bytes.size();
     for (; count < truth.size(); ++count) {
       const Decision& d = truth[count];
       const bool bit =
@@ -69,6 +70,7 @@ class Reader {
   }
   RangeDecoder coder;
   std::size_t count = 0;
+  std::size_t given = 0;
 
  private:
   std::array<AdaptiveBit, kContexts> contexts;

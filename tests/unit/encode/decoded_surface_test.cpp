@@ -69,7 +69,7 @@ surface::Moves single_precision(const std::vector<Eigen::Vector3d>& vectors) {
 std::vector<double> detail_errors(const surface::ProgressiveSurface& decoded,
                                   const SubdivisionLevel& level, int number,
                                   const Positions& predicted) {
-  const bitstream::CoefficientSet& set = decoded.decoder().coefficients();
+  const bitstream::CoefficientSet set = decoded.decoder().coefficients();
   const surface::Dequantisation steps{decoded.decoder().header().finest_step, 4.0f};
   const double mean_area = std::ldexp(
       surface::mean_face_area(decoded.base(), decoded.decoder().base_positions()), -2 * number);

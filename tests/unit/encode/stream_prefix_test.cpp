@@ -104,7 +104,7 @@ TEST(StreamPrefix, PassEndsTellWhatAPrefixHolds) {
     decoder.feed(std::span(stream.bytes).first(end.bytes));
     const std::int32_t half = 1 << end.plane;
     for (int c = 0; c < bitstream::kChannelCount; ++c) {
-      const auto& partial = decoder.coefficients().channels[c];
+      const auto partial = decoder.coefficients().channels[c];
       for (std::size_t i = 0; i < partial.size(); ++i) {
         const std::int32_t full = content.coefficients.channels[c][i];
         // Insignificant in this plane, or within half the plane's interval.
