@@ -68,12 +68,6 @@ int PrefixSurface::automatic_level() {
   return std::min(surface_.levels(), std::max(smooth, decoder().detailed_levels()));
 }
 
-const surface::SubdivisionLevel& PrefixSurface::topology(int level) {
-  const surface::SubdivisionLevel* topology = surface_.topology(level);
-  if (topology == nullptr) refuse_broken();
-  return *topology;
-}
-
 exporter::Surface PrefixSurface::surface(std::optional<int> asked) {
   require_surface();
   const int level = asked.value_or(automatic_level());
@@ -81,14 +75,15 @@ exporter::Surface PrefixSurface::surface(std::optional<int> asked) {
     throw Error(ExitCode::usage, "level " + std::to_string(level) +
                                      " does not exist: this stream has levels 0 to " +
                                      std::to_string(surface_.levels()));
-  const surface::SubdivisionLevel& finest = topology(level);
-  const surface::Positions control = surface_.control_points(level);
   exporter::Surface result;
-  result.positions.resize(finest.vertex_count);
-  result.normals.resize(finest.vertex_count);
-  result.triangles = finest.triangles;
-  surface::limit_surface(finest, control, {result.positions.data(), sizeof(Eigen::Vector3f)},
-                         {result.normals.data(), sizeof(Eigen::Vector3f)});
+  result.positions.resize(surface_.counts(level).vertices);
+  result.normals.resize(result.positions.size());
+  result.triangles.resize(surface_.counts(level).triangles);
+  const surface::LimitOutput output{{result.positions.data(), sizeof(Eigen::Vector3f)},
+                                    {result.normals.data(), sizeof(Eigen::Vector3f)}};
+  if (surface_.write_limits(level, output) == surface::SurfaceOutcome::broken ||
+      !surface_.write_triangles(level, result.triangles.data()->data()))
+    refuse_broken();
   put_in_place(file_.placement, result.positions);
   return result;
 }

@@ -39,7 +39,6 @@ class PrefixSurface {
  private:
   void require_surface() const;
   [[noreturn]] void refuse_broken() const;
-  const surface::SubdivisionLevel& topology(int level);
 
   const StreamFile& file_;
   std::uint64_t fed_ = 0;

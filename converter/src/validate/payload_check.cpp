@@ -36,11 +36,10 @@ std::uint64_t most_vertices(const BaseTopology& base, int levels) {
 // Limit positions at the vertices of the finest level. Throws std::invalid_argument if the base is
 // no manifold.
 std::vector<float> limit_positions(ProgressiveSurface& surface) {
-  const surface::SubdivisionLevel* topology = surface.topology(surface.levels());
-  if (topology == nullptr) throw std::invalid_argument(surface.reason());
-  const surface::Positions control_points = surface.control_points(surface.levels());
-  std::vector<float> limit(control_points.size());
-  surface::limit_surface(*topology, control_points, {limit.data()}, {});
+  const int level = surface.levels();
+  std::vector<float> limit(3 * surface.counts(level).vertices);
+  if (surface.write_limits(level, {{limit.data()}, {}}) == surface::SurfaceOutcome::broken)
+    throw std::invalid_argument(surface.reason());
   return limit;
 }
 

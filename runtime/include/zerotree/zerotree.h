@@ -48,8 +48,10 @@ typedef enum zt_result {
 } zt_result;
 
 /* Where a decoder takes its memory from. `allocate` returns memory aligned for any type (16 bytes),
- * or null; `release` gets the size that was asked for. Both may be called from within every
- * function here that takes the decoder, by the thread that called it. */
+ * or null; `release` gets the size that was asked for. Both are given or neither. They are called
+ * from within the functions here that take the decoder, by the thread that called it. Everything
+ * that grows with the levels comes from here; lists of the base mesh, and what OpenSubdiv needs
+ * while it looks at the base, come from operator new. */
 typedef struct zt_allocator {
   void* (*allocate)(void* user, size_t size);
   void (*release)(void* user, void* memory, size_t size);
@@ -57,11 +59,13 @@ typedef struct zt_allocator {
 } zt_allocator;
 
 /* The caller's job system. `parallel_for` calls task(context, i) once for each i below `count`, in
- * any order, on any threads, and returns when all are done. */
+ * any order, on any threads, and returns when all are done. `thread_count` is how many calls are
+ * worth making at the same time; each takes some memory of its own. */
 typedef void (*zt_task)(void* context, uint32_t index);
 typedef struct zt_jobs {
   void (*parallel_for)(void* user, uint32_t count, zt_task task, void* context);
   void* user;
+  uint32_t thread_count;
 } zt_jobs;
 
 /* How a decoder works and what it is willing to decode; a stream beyond the limits is refused

@@ -2,15 +2,51 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
-#include <limits>
 #include <new>
 #include <utility>
 #include <vector>
 
+#include "api/decoder_memory.h"
 #include "surface/progressive_surface.h"
 #include "zerotree/zerotree.h"
 
+namespace {
+
+using zerotree::api::DecoderMemory;
+using zerotree::bitstream::BaseTopology;
+using zerotree::bitstream::DecodeStatus;
+using zerotree::bitstream::Limits;
+using zerotree::surface::Deadline;
+using zerotree::surface::ExternalBase;
+using zerotree::surface::LimitOutput;
+using zerotree::surface::SurfaceOutcome;
+using zerotree::surface::SurfaceResources;
+
+constexpr std::size_t kPackedStride = 3 * sizeof(float);
+// 65535 restarts a primitive in 16 bit indices.
+constexpr std::uint32_t kMostShortVertices = 65535;
+// Some 50 microseconds of decoding.
+constexpr std::size_t kPieceOfBudget = 128;
+
+SurfaceResources resources_of(const zt_options& options, DecoderMemory& memory) {
+  return {&memory,
+          {options.jobs.parallel_for, options.jobs.user, std::max(options.jobs.thread_count, 1u)}};
+}
+
+}  // namespace
+
 struct zt_decoder {
+  zt_decoder(const zt_options& options, const Limits& limits)
+      : allocator(options.allocator),
+        memory(options.allocator),
+        surface(limits, resources_of(options, memory)) {}
+  zt_decoder(const zt_options& options, const Limits& limits, ExternalBase base)
+      : allocator(options.allocator),
+        memory(options.allocator),
+        surface(std::move(base), limits, resources_of(options, memory)) {}
+
+  zt_allocator allocator;
+  DecoderMemory memory;
   zerotree::surface::ProgressiveSurface surface;
   /// Said instead of the stream's own reason when memory ran out while feeding.
   bool is_out_of_memory = false;
@@ -19,24 +55,18 @@ struct zt_decoder {
 
 namespace {
 
-using zerotree::bitstream::BaseTopology;
-using zerotree::bitstream::DecodeStatus;
-using zerotree::bitstream::Limits;
-using zerotree::surface::Positions;
-using zerotree::surface::StridedVectors;
-using zerotree::surface::SubdivisionLevel;
-
-constexpr std::size_t kPackedStride = 3 * sizeof(float);
-// 65535 restarts a primitive in 16 bit indices.
-constexpr std::uint32_t kMostShortVertices = 65535;
-// About 50 microseconds of decoding.
-constexpr std::size_t kPieceOfBudget = 64;
-
 /// The caller's options as far as it knows them; zeros beyond.
 zt_options complete(const zt_options* options) {
   zt_options result{};
   if (options) std::memcpy(&result, options, std::min(options->struct_size, sizeof result));
   return result;
+}
+
+bool are_usable(const zt_options* options) {
+  if (!options) return true;
+  const zt_options all = complete(options);
+  return options->struct_size >= sizeof options->struct_size &&
+         !all.allocator.allocate == !all.allocator.release;
 }
 
 Limits limits_from(const zt_options& options) {
@@ -48,6 +78,20 @@ Limits limits_from(const zt_options& options) {
     limits.max_levels = std::clamp(options.max_levels, 0, limits.max_levels);
   if (options.max_memory != 0) limits.max_memory = options.max_memory;
   return limits;
+}
+
+/// A decoder in the caller's memory; null when there is none.
+template <class... Base>
+zt_decoder* make_decoder(const zt_options* options, Base&&... base) {
+  const zt_options all = complete(options);
+  void* memory = DecoderMemory::take(all.allocator, sizeof(zt_decoder));
+  if (!memory) return nullptr;
+  try {
+    return new (memory) zt_decoder(all, limits_from(all), std::forward<Base>(base)...);
+  } catch (...) {
+    DecoderMemory::give_back(all.allocator, memory, sizeof(zt_decoder));
+    return nullptr;
+  }
 }
 
 std::size_t packed_unless(std::size_t stride) {
@@ -113,6 +157,7 @@ zt_info info_of(const zt_decoder* decoder) {
   const auto& stream = decoder->surface.decoder();
   info.bytes_consumed = stream.bytes_consumed();
   info.error = error_after(*decoder, info.bytes_consumed);
+  info.memory = sizeof(zt_decoder) + decoder->memory.bytes_held();
   if (stream.header_ready()) {
     info.header_ready = 1;
     info.levels = stream.header().levels;
@@ -128,10 +173,31 @@ zt_info info_of(const zt_decoder* decoder) {
   return info;
 }
 
-template <class Index>
-void write_indices(const SubdivisionLevel& level, Index* indices) {
-  for (const auto& triangle : level.triangles)
-    for (const std::uint32_t vertex : triangle) *indices++ = static_cast<Index>(vertex);
+Deadline deadline_in(std::uint32_t microseconds) {
+  return std::chrono::steady_clock::now() + std::chrono::microseconds(microseconds);
+}
+
+struct VertexBuffers {
+  LimitOutput output;
+  std::uint32_t capacity;
+};
+
+zt_result reconstruct(zt_decoder* decoder, std::int32_t level, const VertexBuffers& buffers,
+                      const Deadline& deadline) {
+  const zt_result possible = check_request(decoder, level);
+  if (possible != ZT_OK) return possible;
+  if (buffers.capacity < zt_vertex_count(decoder, level)) return ZT_INVALID_ARGUMENT;
+  return guarded([&] {
+    switch (decoder->surface.write_limits(level, buffers.output, deadline)) {
+      case SurfaceOutcome::done:
+        return ZT_OK;
+      case SurfaceOutcome::unfinished:
+        return ZT_UNFINISHED;
+      case SurfaceOutcome::broken:
+        break;
+    }
+    return ZT_BROKEN_STREAM;
+  });
 }
 
 }  // namespace
@@ -139,34 +205,29 @@ void write_indices(const SubdivisionLevel& level, Index* indices) {
 extern "C" {
 
 zt_decoder* zt_create(const zt_options* options) {
-  if (options && options->struct_size == 0) return nullptr;
-  try {
-    return new zt_decoder{
-        zerotree::surface::ProgressiveSurface(limits_from(complete(options))), false, {}};
-  } catch (...) {
-    return nullptr;
-  }
+  return are_usable(options) ? make_decoder(options) : nullptr;
 }
 
 zt_decoder* zt_create_for_base(const void* positions, size_t position_stride, uint32_t vertex_count,
                                const uint32_t* indices, uint32_t triangle_count, int32_t levels,
                                const zt_options* options) {
-  if (!positions || !indices || (options && options->struct_size == 0)) return nullptr;
+  if (!positions || !indices || !are_usable(options)) return nullptr;
   try {
-    return new zt_decoder{
-        zerotree::surface::ProgressiveSurface(
-            {base_from(vertex_count, indices, triangle_count),
-             gather_positions(positions, packed_unless(position_stride), vertex_count), levels},
-            limits_from(complete(options))),
-        false,
-        {}};
+    return make_decoder(
+        options,
+        ExternalBase{base_from(vertex_count, indices, triangle_count),
+                     gather_positions(positions, packed_unless(position_stride), vertex_count),
+                     levels});
   } catch (...) {
     return nullptr;
   }
 }
 
 void zt_free(zt_decoder* decoder) {
-  delete decoder;
+  if (!decoder) return;
+  const zt_allocator allocator = decoder->allocator;
+  decoder->~zt_decoder();
+  DecoderMemory::give_back(allocator, decoder, sizeof(zt_decoder));
 }
 
 zt_status zt_feed(zt_decoder* decoder, const void* bytes, size_t size) {
@@ -182,18 +243,19 @@ zt_status zt_feed(zt_decoder* decoder, const void* bytes, size_t size) {
 
 zt_status zt_feed_for(zt_decoder* decoder, const void* bytes, size_t size, uint32_t budget_us,
                       size_t* taken) {
-  if (!taken) return ZT_BROKEN;
+  if (!decoder || !taken || (!bytes && size > 0)) return ZT_BROKEN;
   *taken = 0;
-  const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(budget_us);
+  const Deadline deadline = deadline_in(budget_us);
   const auto* next = static_cast<const std::uint8_t*>(bytes);
   zt_status status = zt_get_status(decoder);
   while (status == ZT_MORE_BYTES_WANTED && *taken < size) {
     const std::size_t piece = std::min(kPieceOfBudget, size - *taken);
     status = zt_feed(decoder, next + *taken, piece);
     *taken += piece;
-    if (std::chrono::steady_clock::now() >= end) return status;
+    if (status == ZT_MORE_BYTES_WANTED && std::chrono::steady_clock::now() >= *deadline)
+      return status;
   }
-  *taken = size;
+  *taken = size;  // what comes after the end or an error is ignored
   return status;
 }
 
@@ -236,34 +298,17 @@ uint32_t zt_triangle_count(const zt_decoder* decoder, int32_t level) {
 zt_result zt_reconstruct(zt_decoder* decoder, int32_t level, void* positions,
                          size_t position_stride, void* normals, size_t normal_stride,
                          uint32_t vertex_capacity) {
-  const zt_result possible = check_request(decoder, level);
-  if (possible != ZT_OK) return possible;
-  if (vertex_capacity < zt_vertex_count(decoder, level)) return ZT_INVALID_ARGUMENT;
-  return guarded([&] {
-    const SubdivisionLevel* topology = decoder->surface.topology(level);
-    if (!topology) return ZT_BROKEN_STREAM;
-    const Positions control_points = decoder->surface.control_points(level);
-    zerotree::surface::limit_surface(*topology, control_points,
-                                     StridedVectors{positions, packed_unless(position_stride)},
-                                     StridedVectors{normals, packed_unless(normal_stride)});
-    return ZT_OK;
-  });
+  const LimitOutput output{{positions, packed_unless(position_stride)},
+                           {normals, packed_unless(normal_stride)}};
+  return reconstruct(decoder, level, {output, vertex_capacity}, {});
 }
 
 zt_result zt_reconstruct_for(zt_decoder* decoder, int32_t level, void* positions,
                              size_t position_stride, void* normals, size_t normal_stride,
-                             uint32_t vertex_capacity, uint32_t) {
-  return zt_reconstruct(decoder, level, positions, position_stride, normals, normal_stride,
-                        vertex_capacity);
-}
-
-zt_result zt_get_level_error(zt_decoder*, int32_t, float*) {
-  return ZT_INVALID_ARGUMENT;
-}
-
-zt_result zt_choose_level(zt_decoder* decoder, float, int32_t* level) {
-  *level = decoder->surface.levels();
-  return ZT_OK;
+                             uint32_t vertex_capacity, uint32_t budget_us) {
+  const LimitOutput output{{positions, packed_unless(position_stride)},
+                           {normals, packed_unless(normal_stride)}};
+  return reconstruct(decoder, level, {output, vertex_capacity}, deadline_in(budget_us));
 }
 
 zt_result zt_get_indices(zt_decoder* decoder, int32_t level, void* indices, uint32_t index_size,
@@ -276,30 +321,22 @@ zt_result zt_get_indices(zt_decoder* decoder, int32_t level, void* indices, uint
                : index_size != sizeof(std::uint32_t))
     return ZT_INVALID_ARGUMENT;
   return guarded([&] {
-    const SubdivisionLevel* topology = decoder->surface.topology(level);
-    if (!topology) return ZT_BROKEN_STREAM;
-    if (is_short)
-      write_indices(*topology, static_cast<std::uint16_t*>(indices));
-    else
-      write_indices(*topology, static_cast<std::uint32_t*>(indices));
-    return ZT_OK;
+    const bool done =
+        is_short ? decoder->surface.write_triangles(level, static_cast<std::uint16_t*>(indices))
+                 : decoder->surface.write_triangles(level, static_cast<std::uint32_t*>(indices));
+    return done ? ZT_OK : ZT_BROKEN_STREAM;
   });
 }
 
 zt_result zt_get_bounds(zt_decoder* decoder, float low[3], float high[3]) {
-  if (!decoder || !low || !high) return ZT_INVALID_ARGUMENT;
-  const int level = decoder->surface.decoder().detailed_levels();
-  const zt_result possible = check_request(decoder, level);
+  if (!low || !high) return ZT_INVALID_ARGUMENT;
+  const zt_result possible = check_request(decoder, 0);
   if (possible != ZT_OK) return possible;
   return guarded([&] {
-    if (!decoder->surface.topology(level)) return ZT_BROKEN_STREAM;
-    const Positions points = decoder->surface.control_points(level);
-    std::fill_n(low, 3, std::numeric_limits<float>::max());
-    std::fill_n(high, 3, std::numeric_limits<float>::lowest());
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      low[k % 3] = std::min(low[k % 3], points[k]);
-      high[k % 3] = std::max(high[k % 3], points[k]);
-    }
+    zerotree::surface::ProgressiveSurface::Box box;
+    if (!decoder->surface.find_bounds(box)) return ZT_BROKEN_STREAM;
+    std::copy(box.low.begin(), box.low.end(), low);
+    std::copy(box.high.begin(), box.high.end(), high);
     return ZT_OK;
   });
 }
@@ -317,6 +354,33 @@ uint64_t zt_bytes_for_error(const zt_decoder* decoder, float max_error) {
   for (const zt_prefix_error& row : decoder->errors)
     if (row.error <= max_error) return row.bytes;
   return decoder->errors.back().bytes;
+}
+
+zt_result zt_get_level_error(zt_decoder* decoder, int32_t level, float* error) {
+  if (!error) return ZT_INVALID_ARGUMENT;
+  const zt_result possible = check_request(decoder, level);
+  if (possible != ZT_OK) return possible;
+  return guarded([&] {
+    const std::vector<float>* errors = decoder->surface.level_errors();
+    if (!errors) return ZT_BROKEN_STREAM;
+    *error = (*errors)[static_cast<std::size_t>(level)];
+    return ZT_OK;
+  });
+}
+
+zt_result zt_choose_level(zt_decoder* decoder, float max_error, int32_t* level) {
+  if (!level) return ZT_INVALID_ARGUMENT;
+  const zt_result possible = check_request(decoder, 0);
+  if (possible != ZT_OK) return possible;
+  return guarded([&] {
+    const std::vector<float>* errors = decoder->surface.level_errors();
+    if (!errors) return ZT_BROKEN_STREAM;
+    // Errors fall from level to level, the finest one's is 0.
+    const auto enough = std::find_if(errors->begin(), errors->end() - 1,
+                                     [&](float error) { return error <= max_error; });
+    *level = static_cast<std::int32_t>(enough - errors->begin());
+    return ZT_OK;
+  });
 }
 
 const char* zt_version(void) {

@@ -228,14 +228,20 @@ void StreamDecoder::forget_changes() {
 }
 
 std::vector<float> StreamDecoder::base_positions() const {
-  if (state_->external) return state_->external_positions;
+  std::vector<float> positions(3 * std::size_t{state_->base.vertex_count});
+  get_base_positions(positions);
+  return positions;
+}
+void StreamDecoder::get_base_positions(std::span<float> positions) const {
+  if (state_->external) {
+    std::copy(state_->external_positions.begin(), state_->external_positions.end(),
+              positions.begin());
+    return;
+  }
   const PositionQuantisation& quantisation = state_->header.positions;
   const std::span<const std::int32_t> values = state_->positions->values();
-  std::vector<float> result(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    result[i] = dequantise_coordinate(quantisation, i % 3, values[i]);
-  }
-  return result;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    positions[i] = dequantise_coordinate(quantisation, i % 3, values[i]);
 }
 
 std::size_t StreamDecoder::bytes_consumed() const {

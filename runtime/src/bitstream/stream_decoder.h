@@ -60,6 +60,8 @@ class StreamDecoder {
   /// x, y, z per base vertex as far as they are known: the external ones as they were given,
   /// embedded ones at the middle of what their known bits leave open.
   std::vector<float> base_positions() const;
+  /// The same into room for three floats a vertex.
+  void get_base_positions(std::span<float> positions) const;
   /// Details as far as they are known: see DetailState::has_details and DetailState::values.
   const DetailState& details() const;
   /// A copy of all details, those that are zero included.

@@ -52,7 +52,7 @@ struct FanWeights {
 class BaseFans {
  public:
   /// `topology` with its tags, and its edges. Throws std::invalid_argument as make_loop_refiner.
-  BaseFans(const bitstream::BaseTopology& topology, const bitstream::BaseEdges& edges,
+  BaseFans(const bitstream::BaseTopology& topology, const std::vector<bitstream::BaseEdge>& edges,
            std::pmr::memory_resource* memory);
 
   struct View {

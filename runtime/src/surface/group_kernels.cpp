@@ -11,7 +11,8 @@ namespace zerotree::surface {
 namespace {
 
 LanePoint even_child(const LanePoint* points, const std::array<std::uint32_t, 7>& ring) {
-  const LanePoint around = (points[ring[1]] + points[ring[2]]) + (points[ring[3]] + points[ring[4]]) +
+  const LanePoint around = (points[ring[1]] + points[ring[2]]) +
+                           (points[ring[3]] + points[ring[4]]) +
                            (points[ring[5]] + points[ring[6]]);
   return kEvenCentre * points[ring[0]] + kEvenRing * around;
 }

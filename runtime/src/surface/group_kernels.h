@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "surface/lanes.h"
-#include "surface/level_values.h"
+#include "surface/level_details.h"
 #include "surface/triangle_lattice.h"
 
 namespace zerotree::surface {

@@ -15,7 +15,8 @@ namespace {
 using Ring = std::array<std::uint32_t, 7>;
 
 LanePoint limit_position(const LanePoint* points, const Ring& ring) {
-  const LanePoint around = (points[ring[1]] + points[ring[2]]) + (points[ring[3]] + points[ring[4]]) +
+  const LanePoint around = (points[ring[1]] + points[ring[2]]) +
+                           (points[ring[3]] + points[ring[4]]) +
                            (points[ring[5]] + points[ring[6]]);
   return kLimitCentre * points[ring[0]] + kLimitRing * around;
 }

@@ -13,10 +13,11 @@ LevelCounts refined_counts(LevelCounts counts, int level) {
   return counts;
 }
 
-LatticeMesh::LatticeMesh(const bitstream::BaseTopology& base, const bitstream::BaseEdges& edges,
+LatticeMesh::LatticeMesh(const bitstream::BaseTopology& base,
+                         const std::vector<bitstream::BaseEdge>& edges,
                          std::pmr::memory_resource* memory)
     : memory_(memory),
-      counts_{base.vertex_count, edges.edges.size(), base.triangles.size()},
+      counts_{base.vertex_count, edges.size(), base.triangles.size()},
       corners_(base.triangles.begin(), base.triangles.end()),
       sides_(base.triangles.size()),
       fans_(base, edges, memory) {

@@ -28,7 +28,7 @@ LevelCounts refined_counts(LevelCounts base, int level);
 class LatticeMesh {
  public:
   /// Throws std::invalid_argument if the base is no oriented 2-manifold; see make_loop_refiner.
-  LatticeMesh(const bitstream::BaseTopology& base, const bitstream::BaseEdges& edges,
+  LatticeMesh(const bitstream::BaseTopology& base, const std::vector<bitstream::BaseEdge>& edges,
               std::pmr::memory_resource* memory);
 
   /// Makes levels up to `levels` known.
@@ -64,6 +64,8 @@ class LatticeMesh {
     return point.first + (strip.refiner_edge << point.shift);
   }
 
+  /// Vertex of each point of `level` in base triangle `triangle`.
+  std::vector<std::uint32_t> vertices_of(int level, std::size_t triangle) const;
   /// Writes the three vertices of each triangle of `level` inside base triangle `triangle`.
   template <class Index>
   void write_triangles(int level, std::size_t triangle, Index* indices) const;
@@ -77,7 +79,6 @@ class LatticeMesh {
 
   std::vector<StripPoint> strip_points(int level) const;
   std::uint64_t edge_offset(int level, int born) const;
-  std::vector<std::uint32_t> vertices_of(int level, std::size_t triangle) const;
 
   std::pmr::memory_resource* memory_;
   LevelCounts counts_;

@@ -3,9 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory_resource>
-#include <vector>
 
+#include "bitstream/raw_memory.h"
 #include "surface/lanes.h"
 
 namespace zerotree::surface {
@@ -31,17 +32,22 @@ struct PointF {
 /// after the other. Lanes beyond the last triangle hold nothing of meaning.
 class LatticePoints {
  public:
-  explicit LatticePoints(std::pmr::memory_resource* memory) : points_(memory) {}
-
-  void resize(std::size_t triangles, std::size_t points_each) {
-    points_each_ = points_each;
-    points_.resize((triangles + kLanes - 1) / kLanes * points_each);
+  LatticePoints() = default;
+  /// Takes memory but does not write it, for its pages are new: only lanes without a triangle,
+  /// which are computed too, become zero.
+  LatticePoints(std::size_t triangles, std::size_t points_each, std::pmr::memory_resource* memory)
+      : points_each_(points_each),
+        memory_((triangles + kLanes - 1) / kLanes * points_each * sizeof(LanePoint), memory) {
+    if (triangles % kLanes != 0)
+      std::memset(static_cast<void*>(group(triangles / kLanes)), 0,
+                  points_each * sizeof(LanePoint));
   }
-  bool empty() const { return points_.empty(); }
 
-  LanePoint* group(std::size_t number) { return points_.data() + number * points_each_; }
+  LanePoint* group(std::size_t number) {
+    return static_cast<LanePoint*>(memory_.data()) + number * points_each_;
+  }
   const LanePoint* group(std::size_t number) const {
-    return points_.data() + number * points_each_;
+    return static_cast<const LanePoint*>(memory_.data()) + number * points_each_;
   }
 
   PointF get(std::size_t triangle, std::uint32_t point) const {
@@ -62,7 +68,7 @@ class LatticePoints {
   }
 
   std::size_t points_each_ = 0;
-  std::pmr::vector<LanePoint> points_;
+  bitstream::RawMemory memory_;
 };
 
 }  // namespace zerotree::surface

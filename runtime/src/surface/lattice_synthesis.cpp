@@ -25,7 +25,8 @@ void for_block(std::size_t unit, std::size_t at_once, std::size_t count, const P
   for (std::size_t i = unit * at_once; i < std::min(count, (unit + 1) * at_once); ++i) part(i);
 }
 
-/// Calls part(i, lanes) for i = first, first + kLanes, .. below `end`; `lanes` of them are below it.
+/// Calls part(i, lanes) for i = first, first + kLanes, .. below `end`; `lanes` of them are below
+/// it.
 template <class Part>
 void for_lanes(std::size_t first, std::size_t end, const Part& part) {
   for (std::size_t i = first; i < end; i += kLanes) part(i, std::min(kLanes, end - i));
@@ -51,23 +52,20 @@ EndWeights strip_weights(const BaseStrip& strip) {
 }  // namespace
 
 LatticeSynthesis::LatticeSynthesis(const LatticeMesh& mesh, std::pmr::memory_resource* memory)
-    : mesh_(mesh), memory_(memory), lifts_(memory), strip_moves_(memory) {}
+    : mesh_(mesh), memory_(memory), strip_moves_(memory) {}
 
 void LatticeSynthesis::reserve(int level, std::size_t workers) {
-  for (int number = levels() + 1; number <= level; ++number) {
-    points_.emplace_back(memory_);
-    points_.back().resize(mesh_.triangle_count(), mesh_.lattice(number).point_count);
-  }
+  for (int number = levels() + 1; number <= level; ++number)
+    points_.emplace_back(mesh_.triangle_count(), mesh_.lattice(number).point_count, memory_);
   const LatticeLevel& finest = mesh_.lattice(levels());
   while (scratch_.size() < workers) scratch_.emplace_back(memory_);
-  for (Scratch& scratch : scratch_)
-    scratch.rows.resize(StripRows::floats_needed(finest));
+  for (Scratch& scratch : scratch_) scratch.rows.resize(StripRows::floats_needed(finest));
   if (levels() == 0) return;
   const LatticeLevel& last = mesh_.lattice(levels() - 1);
-  lifts_.resize(mesh_.triangle_count(), last.point_count);
+  lifts_ = {};  // before the next take their memory
+  lifts_ = LatticePoints(mesh_.triangle_count(), last.point_count, memory_);
   strip_moves_.resize(mesh_.fans().strips().size() * static_cast<std::size_t>(last.segments));
-  for (Scratch& scratch : scratch_)
-    scratch.moves.resize(finest.point_count - last.point_count);
+  for (Scratch& scratch : scratch_) scratch.moves.resize(finest.point_count - last.point_count);
 }
 
 void LatticeSynthesis::set_base(std::span<const float> positions) {
@@ -176,8 +174,8 @@ LanePoint LatticeSynthesis::strip_detail(int level, std::size_t strip, std::size
   LanePoint detail{};
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const auto place = static_cast<std::uint32_t>(i + lane);
-    const std::size_t cell =
-        bitstream::cell_index(level, {static_cast<std::uint32_t>(strip), place, place});
+    const std::size_t cell = bitstream::cell_index(
+        level, bitstream::EdgeCell{static_cast<std::uint32_t>(strip), place, place});
     const auto length = [&](std::size_t c) {
       return 0.5f * static_cast<float>(details_.channels[c][cell]) * details_.units[c];
     };
@@ -319,8 +317,7 @@ void LatticeSynthesis::finish_corner(int level, std::size_t vertex) {
   LatticePoints& points = points_at(level + 1);
   const PointF dip = fan.dip_per_lift * lifts_.get(face, corner);
   set_corner(fan,
-             points.get(face, corner) -
-                 (child_at_corner(fan, mesh_.lattice(level), lifts_) + dip),
+             points.get(face, corner) - (child_at_corner(fan, mesh_.lattice(level), lifts_) + dip),
              points);
 }
 

@@ -16,7 +16,7 @@
 
 #include "surface/lattice_mesh.h"
 #include "surface/lattice_points.h"
-#include "surface/level_values.h"
+#include "surface/level_details.h"
 #include "surface/limit_output.h"
 
 namespace zerotree::surface {

@@ -54,8 +54,8 @@ bool LevelSchedule::make_level(int level, const SurfaceSource& source, const Dea
     const auto number = static_cast<std::size_t>(made_);
     const LevelDetails details =
         number < source.details.size() ? source.details[number] : LevelDetails{};
-    synthesis_.set_details(details,
-                           source.base_mean_area / static_cast<double>(std::uint64_t{1} << (2 * made_)));
+    synthesis_.set_details(
+        details, source.base_mean_area / static_cast<double>(std::uint64_t{1} << (2 * made_)));
     const std::span passes(kLevelPasses);
     if (!run(details.any() ? passes : passes.first(kPassesWithoutDetails), made_, {}, deadline,
              level_place_))

@@ -11,7 +11,7 @@
 #include <span>
 
 #include "surface/lattice_synthesis.h"
-#include "surface/level_values.h"
+#include "surface/level_details.h"
 #include "surface/limit_output.h"
 
 namespace zerotree::surface {

@@ -1,41 +1,47 @@
 #include "surface/progressive_surface.h"
 
+#include <algorithm>
+#include <climits>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "bitstream/base_edges.h"
+#include "surface/surface_measures.h"
+#include "surface/surface_synthesis.h"
 
 namespace zerotree::surface {
 
 using bitstream::DecodeStatus;
 
-ProgressiveSurface::ProgressiveSurface(const bitstream::Limits& limits) : decoder_(limits) {}
+ProgressiveSurface::ProgressiveSurface(const bitstream::Limits& limits,
+                                       const SurfaceResources& resources)
+    : resources_(resources), decoder_(limits, resources.memory) {}
 
-ProgressiveSurface::ProgressiveSurface(ExternalBase base, const bitstream::Limits& limits)
-    : external_(std::move(base)), decoder_(external_->topology, external_->positions, limits) {
+ProgressiveSurface::ProgressiveSurface(ExternalBase base, const bitstream::Limits& limits,
+                                       const SurfaceResources& resources)
+    : resources_(resources),
+      external_(std::move(base)),
+      decoder_(external_->topology, external_->positions, limits, resources.memory) {
   external_->topology.crease_edges.clear();
   external_->topology.corner_vertices.clear();
   check_external_base(limits);
 }
 
 void ProgressiveSurface::check_external_base(const bitstream::Limits& limits) {
-  const bitstream::BaseEdges numbered = bitstream::number_base_edges(external_->topology);
-  external_edges_ = numbered.edges.size();
+  bitstream::BaseEdges numbered = bitstream::number_base_edges(external_->topology);
+  external_edges_ = std::move(numbered.edges);
+  const std::size_t edges = external_edges_.size();
   if (!numbered.error.empty()) return fail(numbered.error);
-  if (external_edges_ == 0) return fail("the base mesh given has no triangle");
+  if (edges == 0) return fail("the base mesh given has no triangle");
   if (external_->positions.size() != 3 * std::size_t{external_->topology.vertex_count})
     return fail("the base mesh given has not three coordinates per vertex");
   if (external_->levels < 0 || external_->levels > limits.max_levels)
     return fail("the number of levels is beyond the limit");
   if (external_->topology.vertex_count +
-          std::uint64_t{external_edges_} * bitstream::cells_below(external_->levels) >
+          std::uint64_t{edges} * bitstream::cells_below(external_->levels) >
       limits.max_vertices)
     return fail("the finest level has more vertices than the limit");
-}
-
-void ProgressiveSurface::share(std::shared_ptr<const SubdivisionHierarchy> hierarchy) {
-  shared_ = std::move(hierarchy);
-  hierarchy_ = nullptr;
 }
 
 DecodeStatus ProgressiveSurface::feed(std::span<const std::uint8_t> bytes) {
@@ -78,13 +84,9 @@ const bitstream::BaseTopology& ProgressiveSurface::base() const {
   return decoder_.base_ready() ? decoder_.base() : external_->topology;
 }
 
-ProgressiveSurface::Counts ProgressiveSurface::counts(int level) const {
-  Counts counts{base().vertex_count, external_ ? external_edges_ : decoder_.base_edges().size(),
-                base().triangles.size()};
-  for (int number = 0; number < level; ++number)
-    counts = {counts.vertices + counts.edges, 2 * counts.edges + 3 * counts.triangles,
-              4 * counts.triangles};
-  return counts;
+LevelCounts ProgressiveSurface::counts(int level) const {
+  const std::size_t edges = external_ ? external_edges_.size() : decoder_.base_edges().size();
+  return refined_counts({base().vertex_count, edges, base().triangles.size()}, level);
 }
 
 WaveletTransform ProgressiveSurface::transform() const {
@@ -93,38 +95,160 @@ WaveletTransform ProgressiveSurface::transform() const {
                                  : WaveletTransform::loop_local;
 }
 
-bool ProgressiveSurface::suits(const SubdivisionHierarchy* hierarchy, int level) const {
-  return hierarchy && hierarchy->levels() >= level && hierarchy->transform() == transform() &&
-         hierarchy->base().crease_edges == base().crease_edges &&
-         hierarchy->base().corner_vertices == base().corner_vertices;
-}
-
-const SubdivisionLevel* ProgressiveSurface::topology(int level) {
-  hierarchy_ = nullptr;
-  if (suits(shared_.get(), level)) {
-    hierarchy_ = shared_.get();
-  } else {
-    if (!suits(own_.get(), level)) {
-      own_.reset();  // before the next one takes its memory
-      try {
-        own_ = std::make_shared<const SubdivisionHierarchy>(base(), level, transform());
-      } catch (const std::invalid_argument& error) {
-        fail(error.what());
-        return nullptr;
-      }
-    }
-    hierarchy_ = own_.get();
-  }
-  return &hierarchy_->level(level);
-}
-
-Positions ProgressiveSurface::control_points(int level) const {
-  if (!decoder_.base_ready()) return reconstruct(*hierarchy_, external_->positions, {}, {}, level);
+Dequantisation ProgressiveSurface::dequantisation() const {
   const bitstream::StreamHeader& header = decoder_.header();
-  const Dequantisation dequantisation{header.finest_step,
-                                      std::ldexp(1.0f, header.tangent_ratio_log2)};
-  return reconstruct(*hierarchy_, decoder_.base_positions(), decoder_.coefficients(),
-                     dequantisation, level);
+  return {header.finest_step, std::ldexp(1.0f, header.tangent_ratio_log2)};
+}
+
+LatticeMesh* ProgressiveSurface::mesh() {
+  if (mesh_ && mesh_has_tags_ == decoder_.base_ready()) return mesh_.get();
+  schedule_.reset();
+  mesh_.reset();
+  const bool has_tags = decoder_.base_ready();
+  try {
+    mesh_ = std::make_unique<LatticeMesh>(
+        base(), has_tags ? decoder_.base_edges() : external_edges_, resources_.memory);
+  } catch (const std::invalid_argument& error) {
+    fail(error.what());
+    return nullptr;
+  }
+  mesh_has_tags_ = has_tags;
+  schedule_ = std::make_unique<LevelSchedule>(*mesh_, resources_.jobs, resources_.memory);
+  positions_.resize(3 * std::size_t{base().vertex_count});
+  if (external_)
+    std::copy(external_->positions.begin(), external_->positions.end(), positions_.begin());
+  source_ = {};
+  return mesh_.get();
+}
+
+void ProgressiveSurface::note_changes() {
+  if (!decoder_.base_ready()) return;
+  const int changed = decoder_.changed_from();
+  if (changed == INT_MAX) return;
+  decoder_.forget_changes();
+  schedule_->invalidate(changed);
+  level_errors_.clear();
+  if (changed < 0) source_ = {};
+}
+
+const SurfaceSource& ProgressiveSurface::source() {
+  note_changes();
+  if (source_.base_positions.empty()) {
+    if (!external_) decoder_.get_base_positions(positions_);
+    source_ = {positions_, {}, mean_face_area(base(), positions_)};
+  }
+  if (!decoder_.base_ready()) return source_;
+  const bitstream::DetailState& state = decoder_.details();
+  for (int level = 0; level < state.levels(); ++level) {
+    LevelDetails& details = details_[static_cast<std::size_t>(level)];
+    details = {};
+    for (int c = 0; c < bitstream::kChannelCount; ++c) {
+      const auto channel = static_cast<std::size_t>(c);
+      details.units[channel] =
+          detail_unit(dequantisation(), state.levels(), level, static_cast<bitstream::Channel>(c));
+      if (!state.has_details(c, level)) continue;
+      const bitstream::LevelValues& values = state.values(c, level);
+      if (values.is_wide())
+        details.channels[channel].wide = values.wide();
+      else
+        details.channels[channel].narrow = values.narrow();
+    }
+  }
+  source_.details = std::span(details_).first(static_cast<std::size_t>(state.levels()));
+  return source_;
+}
+
+bool ProgressiveSurface::mesh_wide_points(int level, Positions& points) {
+  try {
+    const SubdivisionHierarchy& hierarchy = mesh_wide_.hierarchy(base(), transform(), level);
+    const SurfaceSource& from = source();
+    points =
+        reconstruct(hierarchy, Positions(from.base_positions.begin(), from.base_positions.end()),
+                    decoder_.coefficients(), dequantisation(), level);
+  } catch (const std::invalid_argument& error) {
+    fail(error.what());
+    return false;
+  }
+  return true;
+}
+
+SurfaceOutcome ProgressiveSurface::write_limits(int level, const LimitOutput& output,
+                                                const Deadline& deadline) {
+  if (!mesh()) return SurfaceOutcome::broken;
+  if (transform() == WaveletTransform::loop_quadrature_mirror) {
+    Positions points;
+    if (!mesh_wide_points(level, points)) return SurfaceOutcome::broken;
+    limit_surface(mesh_wide_.hierarchy(base(), transform(), level).level(level), points,
+                  output.positions, output.normals);
+    return SurfaceOutcome::done;
+  }
+  return schedule_->write_limits(level, source(), output, deadline) ? SurfaceOutcome::done
+                                                                    : SurfaceOutcome::unfinished;
+}
+
+template <class Index>
+bool ProgressiveSurface::write_triangles(int level, Index* indices) {
+  if (!mesh()) return false;
+  mesh_->deepen(level);
+  for (std::size_t triangle = 0; triangle < mesh_->triangle_count(); ++triangle) {
+    mesh_->write_triangles(level, triangle, indices);
+    indices += std::size_t{3} << (2 * level);
+  }
+  return true;
+}
+
+template bool ProgressiveSurface::write_triangles(int, std::uint16_t*);
+template bool ProgressiveSurface::write_triangles(int, std::uint32_t*);
+
+bool ProgressiveSurface::find_bounds(Box& box) {
+  if (!mesh()) return false;
+  box.low.fill(std::numeric_limits<float>::max());
+  box.high.fill(std::numeric_limits<float>::lowest());
+  const auto include = [&](const float* point) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(box.low[axis], point[axis]);
+      box.high[axis] = std::max(box.high[axis], point[axis]);
+    }
+  };
+  if (transform() == WaveletTransform::loop_quadrature_mirror) {
+    Positions points;
+    if (!mesh_wide_points(levels(), points)) return false;
+    for (std::size_t i = 0; i < points.size(); i += 3) include(&points[i]);
+    return true;
+  }
+  // The surface is in the hull of the control points of any level but for what finer details add.
+  constexpr int kDeepest = 4;
+  const int level = std::min({levels(), decoder_.detailed_levels(), kDeepest});
+  schedule_->make_level(level, source(), {});
+  for (std::size_t triangle = 0; triangle < mesh_->triangle_count(); ++triangle)
+    for (std::uint32_t point = 0; point < mesh_->lattice(level).point_count; ++point) {
+      const PointF p = schedule_->points(level).get(triangle, point);
+      include(&p.x);
+    }
+  float reach = 0.0f;
+  for (std::size_t finer = static_cast<std::size_t>(level); finer < source_.details.size(); ++finer)
+    reach += kReachOfMoves * longest_move(source_.details[finer],
+                                          decoder_.details().level_size(static_cast<int>(finer)));
+  for (float& low : box.low) low -= reach;
+  for (float& high : box.high) high += reach;
+  return true;
+}
+
+const std::vector<float>* ProgressiveSurface::level_errors() {
+  if (!mesh()) return nullptr;
+  note_changes();
+  if (!level_errors_.empty()) return &level_errors_;
+  const int measured = std::min(levels(), kMeasuredLevel);
+  std::vector<float> positions(3 * counts(measured).vertices);
+  if (write_limits(measured, {{positions.data()}, {}}) == SurfaceOutcome::broken) return nullptr;
+  std::vector<float> heights = chord_heights(*mesh_, measured, positions);
+  heights.resize(static_cast<std::size_t>(levels()) + 1, 0.0f);
+  for (std::size_t level = static_cast<std::size_t>(measured); level + 1 < heights.size(); ++level)
+    heights[level] = level == 0 ? 0.0f : 0.25f * heights[level - 1];
+  // A point of a level's triangle moves by no more than its odd vertices do, level after level.
+  for (std::size_t level = heights.size() - 1; level-- > 0;) heights[level] += heights[level + 1];
+  level_errors_ = std::move(heights);
+  return &level_errors_;
 }
 
 }  // namespace zerotree::surface

@@ -1,9 +1,11 @@
 // A stream and the surface that its bytes so far stand for.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <memory_resource>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,8 +13,10 @@
 #include <vector>
 
 #include "bitstream/stream_decoder.h"
-#include "surface/subdivision_hierarchy.h"
-#include "surface/surface_synthesis.h"
+#include "surface/lattice_mesh.h"
+#include "surface/level_schedule.h"
+#include "surface/limit_output.h"
+#include "surface/mesh_wide_surface.h"
 
 namespace zerotree::surface {
 
@@ -23,19 +27,35 @@ struct ExternalBase {
   int levels = 0;                    ///< a stream of another number of levels is broken
 };
 
-/// The one place where bytes become a surface. Feeding costs what decoding costs; topology is built
-/// when a surface is first asked for and kept, for the deepest level asked so far, until the
-/// stream's sharp tags change it. Any bytes are safe.
+/// What a surface lives on. The memory outlives it.
+struct SurfaceResources {
+  std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
+  Jobs jobs;
+};
+
+/// What came of a request for a surface.
+enum class SurfaceOutcome : std::uint8_t {
+  done,
+  unfinished,  ///< the deadline came first; the same request again goes on
+  broken,      ///< the base is no surface; so is the stream, from now on
+};
+
+/// The one place where bytes become a surface. Feeding costs what decoding costs; levels are made
+/// when they are first asked for, kept, and made anew from the coarsest on that has changed. Any
+/// bytes are safe.
 class ProgressiveSurface {
  public:
-  explicit ProgressiveSurface(const bitstream::Limits& limits = {});
+  explicit ProgressiveSurface(const bitstream::Limits& limits = {},
+                              const SurfaceResources& resources = {});
   /// For streams bound to an external base; see bitstream::StreamDecoder. Broken from the start if
   /// the base is no surface or the limits do not allow its levels.
-  explicit ProgressiveSurface(ExternalBase base, const bitstream::Limits& limits = {});
+  explicit ProgressiveSurface(ExternalBase base, const bitstream::Limits& limits = {},
+                              const SurfaceResources& resources = {});
 
-  /// A hierarchy to use wherever its transform, sharp tags and levels suffice, so that several
-  /// surfaces of one base share it. Its base has this stream's triangles.
-  void share(std::shared_ptr<const SubdivisionHierarchy> hierarchy);
+  /// For the quadrature mirror transform: see MeshWideSurface::share.
+  void share(std::shared_ptr<const SubdivisionHierarchy> hierarchy) {
+    mesh_wide_.share(std::move(hierarchy));
+  }
 
   bitstream::DecodeStatus feed(std::span<const std::uint8_t> bytes);
   bitstream::DecodeStatus status() const;
@@ -47,9 +67,6 @@ class ProgressiveSurface {
   /// is from the first byte on: until its sharp tags are here, all its edges are smooth.
   bool is_ready() const;
 
-  struct Counts {
-    std::uint64_t vertices = 0, edges = 0, triangles = 0;
-  };
   // The following mean something once `is_ready()`.
 
   /// The finest level: the header's, or until there is one what the external base's file says.
@@ -57,27 +74,51 @@ class ProgressiveSurface {
   /// The base mesh as it is known: without sharp tags as long as these are not.
   const bitstream::BaseTopology& base() const;
   /// What `level`, 0 .. levels(), has.
-  Counts counts(int level) const;
+  LevelCounts counts(int level) const;
 
-  /// The level's topology; null, and from then on broken, if the base is no surface.
-  const SubdivisionLevel* topology(int level);
-  /// Its control points from all bytes so far; only after `topology(level)` was not null.
-  Positions control_points(int level) const;
+  /// Limit positions and normals at the vertices of `level` from all bytes so far. A stream of the
+  /// quadrature mirror transform knows no deadline.
+  SurfaceOutcome write_limits(int level, const LimitOutput& output, const Deadline& deadline = {});
+  /// The triangles of `level`, three indices each; Index is std::uint16_t or std::uint32_t. False:
+  /// broken.
+  template <class Index>
+  bool write_triangles(int level, Index* indices);
+
+  /// A box that holds the surface. False: broken.
+  struct Box {
+    std::array<float, 3> low, high;
+  };
+  bool find_bounds(Box& box);
+  /// Per level 0 .. levels(): how far its triangles are at most from those of the finest. Measured
+  /// to kMeasuredLevel, from there on a quarter per level. Null: broken.
+  static constexpr int kMeasuredLevel = 5;
+  const std::vector<float>* level_errors();
 
  private:
   void fail(std::string why) { own_reason_ = std::move(why); }
   void check_external_base(const bitstream::Limits& limits);
   void check_header();
   WaveletTransform transform() const;
-  bool suits(const SubdivisionHierarchy* hierarchy, int level) const;
+  Dequantisation dequantisation() const;
+  LatticeMesh* mesh();
+  void note_changes();
+  const SurfaceSource& source();
+  bool mesh_wide_points(int level, Positions& points);
 
+  SurfaceResources resources_;
   std::optional<ExternalBase> external_;
-  std::size_t external_edges_ = 0;
+  std::vector<bitstream::BaseEdge> external_edges_;
   bitstream::StreamDecoder decoder_;
   std::string own_reason_;
-  std::shared_ptr<const SubdivisionHierarchy> shared_, own_;
-  /// One of the two: what `topology` last used.
-  const SubdivisionHierarchy* hierarchy_ = nullptr;
+  /// Of the base with the tags known when they were made.
+  std::unique_ptr<LatticeMesh> mesh_;
+  std::unique_ptr<LevelSchedule> schedule_;
+  bool mesh_has_tags_ = false;
+  std::vector<float> positions_;
+  std::array<LevelDetails, bitstream::kMostLevels> details_;
+  SurfaceSource source_;
+  std::vector<float> level_errors_;
+  MeshWideSurface mesh_wide_;
 };
 
 }  // namespace zerotree::surface

@@ -19,8 +19,7 @@ LanePoint curve_neighbours_of(const StripRows& rows, std::size_t i) {
 /// The limit tangent across a crease or boundary towards the side with the row `beside`.
 LanePoint outward_tangents(const StripRows& rows, const PointRow& beside, std::size_t i) {
   const LanePoint centre = rows.row.lanes(i);
-  const LanePoint curve =
-      (rows.row.lanes(i + 1) - centre) + (rows.row.lanes(i - 1) - centre);
+  const LanePoint curve = (rows.row.lanes(i + 1) - centre) + (rows.row.lanes(i - 1) - centre);
   return ((beside.lanes(i) - centre) + (beside.lanes(i - 1) - centre)) - 0.5f * curve;
 }
 
@@ -30,7 +29,8 @@ StripRows gather_rows(const BaseStrip& strip, const LatticeLevel& level,
                       const LatticePoints& points, float* memory) {
   const auto n = static_cast<std::size_t>(level.segments);
   const std::size_t room = PointRow::floats_needed(n + 1 + kLanes);
-  StripRows rows{{memory, n + 1 + kLanes}, {memory + room, n + 1 + kLanes},
+  StripRows rows{{memory, n + 1 + kLanes},
+                 {memory + room, n + 1 + kLanes},
                  {memory + 2 * room, n + 1 + kLanes}};
   const auto& row = level.side_points[strip.left.side];
   const auto& left = level.near_points[strip.left.side];

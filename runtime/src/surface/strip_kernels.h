@@ -9,7 +9,7 @@
 #include "surface/base_fans.h"
 #include "surface/lane_frames.h"
 #include "surface/lattice_points.h"
-#include "surface/level_values.h"
+#include "surface/level_details.h"
 #include "surface/triangle_lattice.h"
 
 namespace zerotree::surface {
@@ -29,7 +29,9 @@ class PointRow {
     x_[2 * stride_ + i] = p.z;
   }
   /// Points i .. i + kLanes - 1; those beyond the row's end are of no meaning.
-  LanePoint lanes(std::size_t i) const { return {load(i), load(stride_ + i), load(2 * stride_ + i)}; }
+  LanePoint lanes(std::size_t i) const {
+    return {load(i), load(stride_ + i), load(2 * stride_ + i)};
+  }
   /// Points i, i + 2, .. i + 2 kLanes - 2.
   LanePoint every_second(std::size_t i) const {
     const auto pick = [&](std::size_t at) {

@@ -27,7 +27,8 @@ constexpr Step around(std::size_t direction) {
 class PointNumbers {
  public:
   explicit PointNumbers(int segments)
-      : row_(segments + 1), numbers_(static_cast<std::size_t>(row_) * static_cast<std::size_t>(row_)) {}
+      : row_(segments + 1),
+        numbers_(static_cast<std::size_t>(row_) * static_cast<std::size_t>(row_)) {}
 
   std::uint32_t& operator[](Step p) { return numbers_[place(p)]; }
   std::uint32_t operator[](Step p) const { return numbers_[place(p)]; }
@@ -162,8 +163,8 @@ class LevelBuilder {
     edge.head = numbers[tail + along];
     edge.left = numbers[tail + left];
     edge.right = numbers[tail + right];
-    edge.wings = {finer[2 * tail + left], finer[2 * tail + along + left],
-                  finer[2 * tail + right], finer[2 * tail + along + right]};
+    edge.wings = {finer[2 * tail + left], finer[2 * tail + along + left], finer[2 * tail + right],
+                  finer[2 * tail + along + right]};
     return edge;
   }
 

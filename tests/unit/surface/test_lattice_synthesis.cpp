@@ -93,8 +93,8 @@ class Lattices : public testing::TestWithParam<std::tuple<Shape, int>> {
     ASSERT_EQ(found.positions.size(), expected.positions.size());
     double position = 0.0, normal = 0.0, normals = 0.0;
     for (std::size_t v = 0; 3 * v < found.positions.size(); ++v) {
-      position = std::max(
-          position, (point_at(found.positions, v) - point_at(expected.positions, v)).norm());
+      position = std::max(position,
+                          (point_at(found.positions, v) - point_at(expected.positions, v)).norm());
       const double turn = (point_at(found.normals, v) - point_at(expected.normals, v)).norm();
       normal = std::max(normal, turn);
       normals += turn;
@@ -143,11 +143,13 @@ TEST_P(Lattices, HaveTheDetailedSurface) {
   expect_same(found, expected(set, steps));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Shapes, Lattices, testing::Combine(testing::ValuesIn(base_shapes()), testing::Values(0, 1, 2, 4)),
-    [](const auto& test) {
-      return std::get<0>(test.param).name + "_" + std::to_string(std::get<1>(test.param));
-    });
+INSTANTIATE_TEST_SUITE_P(Shapes, Lattices,
+                         testing::Combine(testing::ValuesIn(base_shapes()),
+                                          testing::Values(0, 1, 2, 4)),
+                         [](const auto& test) {
+                           return std::get<0>(test.param).name + "_" +
+                                  std::to_string(std::get<1>(test.param));
+                         });
 
 }  // namespace
 }  // namespace zerotree::test
