@@ -192,12 +192,11 @@ void Viewer::write_screenshots() {
   for (std::size_t k = 0; k < kPictures.size(); ++k) {
     const auto bytes = static_cast<std::size_t>(
         std::ceil(kPictures[k] * static_cast<double>(file_->payload_size)));
-    do {
+    // Twice in a row, for the first time the level may have been chosen before the last bytes came.
+    for (int settled = 0; settled < 2; settled = model_->shows(bytes) ? settled + 1 : 0) {
       refine(bytes);
       mRoot->renderOneFrame();
-    } while (!model_->shows(bytes));
-    refine(bytes);
-    mRoot->renderOneFrame();
+    }
     const auto path = *options_.screenshots / ("prefix" + std::to_string(k + 1) + ".png");
     getRenderWindow()->writeContentsToFile(path.string());
     std::printf("%s: %zu bytes, level %d, %u vertices\n", path.c_str(), model_->fed(),
