@@ -1,6 +1,8 @@
 # Build options and the flags every room shares.
 option(ZEROTREE_BUILD_CONVERTER "Build the converter library and the zerotree command" ON)
 option(ZEROTREE_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
+option(ZEROTREE_BUILD_SAMPLES "Build the samples whose libraries are there" ${ZEROTREE_BUILD_TESTS})
+option(ZEROTREE_INSTALL "Have install rules for the runtime and the command" ${PROJECT_IS_TOP_LEVEL})
 option(ZEROTREE_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 option(ZEROTREE_WERROR "Treat warnings as errors" ${PROJECT_IS_TOP_LEVEL})
 

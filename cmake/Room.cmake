@@ -4,7 +4,8 @@
 function(zerotree_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS" ${ARGN})
   add_library(zerotree_${name} STATIC ${ROOM_SOURCES})
-  target_include_directories(zerotree_${name} PUBLIC ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../runtime/include)
+  target_include_directories(zerotree_${name} PUBLIC ${PROJECT_SOURCE_DIR}/runtime/include
+                                                     ${PROJECT_BINARY_DIR}/runtime/include)
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR PARENT_PATH parent)
   target_include_directories(zerotree_${name} PUBLIC ${parent})
   target_link_libraries(zerotree_${name} PUBLIC zerotree_flags ${ROOM_DEPENDS})

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that Zerotree needs; does nothing, and needs no rights, if all are
 # there already.
-# Usage: samples/install_packages.sh run|test     run: build and use; test: also tests, benchmarks
+# Usage: samples/install_packages.sh run|test     run: build and use; test: also tests, benchmarks, samples
 set -euo pipefail
 
 # GoogleTest is here because one build folder (preset release) serves samples and tests.
@@ -11,7 +11,8 @@ run_packages=(
   libtbb-dev libembree-dev libdraco-dev libmeshoptimizer-dev libstb-dev zlib1g-dev
   fonts-dejavu-core libgtest-dev)
 test_packages=(
-  assimp-utils draco gnuplot-nox python3 clang-format)
+  assimp-utils draco gnuplot-nox python3 clang-format
+  libjansson-dev libogre-1.12-dev xvfb xauth libgl1-mesa-dri)
 
 case "${1:-}" in
   run) wanted=("${run_packages[@]}") ;;

@@ -24,6 +24,20 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "zerotree/version.h"
+
+/* In front of each function that a shared library exports. On Windows define ZT_SHARED to use the
+ * shared library; the CMake target does. ZT_BUILDING_SHARED is for those who build it. */
+#if defined(_WIN32) && defined(ZT_BUILDING_SHARED)
+#define ZT_API __declspec(dllexport)
+#elif defined(_WIN32) && defined(ZT_SHARED)
+#define ZT_API __declspec(dllimport)
+#elif defined(__GNUC__)
+#define ZT_API __attribute__((visibility("default")))
+#else
+#define ZT_API
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -70,7 +84,7 @@ typedef struct zt_jobs {
 
 /* How a decoder works and what it is willing to decode; a stream beyond the limits is refused
  * before memory is taken. Zero and null stand for the defaults, so this is all there is to it:
- *   zt_options options = {sizeof options};   options.max_vertices = 1000000; */
+ *   zt_options options = {.struct_size = sizeof options};   options.max_vertices = 1000000; */
 typedef struct zt_options {
   size_t struct_size;     /* sizeof(zt_options): the struct may grow at its end */
   uint64_t max_vertices;  /* of the finest level; default 2^27 */
@@ -105,7 +119,7 @@ typedef struct zt_prefix_error {
 
 /* A decoder for a stream that carries its base mesh (a .zt file). `options` may be null: the
  * defaults. Returns null when out of memory or if options->struct_size is 0. */
-zt_decoder* zt_create(const zt_options* options);
+ZT_API zt_decoder* zt_create(const zt_options* options);
 
 /* A decoder for a stream bound to the caller's base mesh (the payload of a glTF file). Positions
  * are three floats each, `position_stride` bytes apart (12 if packed; 0 counts as 12); indices are
@@ -115,37 +129,38 @@ zt_decoder* zt_create(const zt_options* options);
  * first byte; sharp edges and details come with the bytes. An index out of range, a mesh that is no
  * surface and levels beyond the limits are ZT_BROKEN too. Returns null when out of memory, when a
  * pointer is null, or if options->struct_size is 0. */
-zt_decoder* zt_create_for_base(const void* positions, size_t position_stride, uint32_t vertex_count,
-                               const uint32_t* indices, uint32_t triangle_count, int32_t levels,
-                               const zt_options* options);
+ZT_API zt_decoder* zt_create_for_base(const void* positions, size_t position_stride,
+                                      uint32_t vertex_count, const uint32_t* indices,
+                                      uint32_t triangle_count, int32_t levels,
+                                      const zt_options* options);
 
 /* Frees the decoder; null is allowed. */
-void zt_free(zt_decoder* decoder);
+ZT_API void zt_free(zt_decoder* decoder);
 
 /* Takes the next `size` bytes of the stream, in pieces of any size (0 is allowed), and decodes what
  * they allow: about 0.02 microseconds a decision. Bytes after the end and after an error are
  * ignored. Memory for all details is taken once, when the base is known; later calls take none. */
-zt_status zt_feed(zt_decoder* decoder, const void* bytes, size_t size);
+ZT_API zt_status zt_feed(zt_decoder* decoder, const void* bytes, size_t size);
 
 /* As zt_feed, but stops soon after `budget_us` microseconds: `*taken` of the bytes are decoded, the
  * others are to be given again. Takes at least one byte if there is one. */
-zt_status zt_feed_for(zt_decoder* decoder, const void* bytes, size_t size, uint32_t budget_us,
-                      size_t* taken);
+ZT_API zt_status zt_feed_for(zt_decoder* decoder, const void* bytes, size_t size,
+                             uint32_t budget_us, size_t* taken);
 
 /* What zt_feed last returned; before the first call ZT_MORE_BYTES_WANTED or ZT_BROKEN. */
-zt_status zt_get_status(const zt_decoder* decoder);
+ZT_API zt_status zt_get_status(const zt_decoder* decoder);
 
 /* If broken, a sentence that says why; otherwise "". Valid until the decoder is next used. */
-const char* zt_reason(const zt_decoder* decoder);
+ZT_API const char* zt_reason(const zt_decoder* decoder);
 
 /* Fills `info`, of which the caller knows the first `info_size` bytes: sizeof(zt_info). */
-void zt_get_info(const zt_decoder* decoder, zt_info* info, size_t info_size);
+ZT_API void zt_get_info(const zt_decoder* decoder, zt_info* info, size_t info_size);
 
 /* Vertices and triangles of `level`, 0 .. levels; 0 if the base is not known or the level is out of
  * range. They depend on the base alone, not on how many bytes have come, so buffers are allocated
  * once: for a payload before its first byte, for a .zt stream after its first few hundred. */
-uint32_t zt_vertex_count(const zt_decoder* decoder, int32_t level);
-uint32_t zt_triangle_count(const zt_decoder* decoder, int32_t level);
+ZT_API uint32_t zt_vertex_count(const zt_decoder* decoder, int32_t level);
+ZT_API uint32_t zt_triangle_count(const zt_decoder* decoder, int32_t level);
 
 /* Limit positions and unit limit normals of the surface that the bytes so far stand for, sampled at
  * the vertices of `level`. Each is three floats a vertex, `stride` bytes apart (12 if packed; 0
@@ -154,48 +169,49 @@ uint32_t zt_triangle_count(const zt_decoder* decoder, int32_t level);
  * the first ones of each finer level. Every vertex is written; only the levels that have changed
  * since the last call are synthesised anew. The first call at a level takes memory, which is kept
  * until the decoder is freed; later ones at this level take none. */
-zt_result zt_reconstruct(zt_decoder* decoder, int32_t level, void* positions,
-                         size_t position_stride, void* normals, size_t normal_stride,
-                         uint32_t vertex_capacity);
+ZT_API zt_result zt_reconstruct(zt_decoder* decoder, int32_t level, void* positions,
+                                size_t position_stride, void* normals, size_t normal_stride,
+                                uint32_t vertex_capacity);
 
 /* As zt_reconstruct, but stops soon after `budget_us` microseconds. ZT_UNFINISHED: call again with
  * the same arguments to go on; until ZT_OK the buffers hold some of both, the new and what was
  * there. Bytes may be fed in between: the surface is then that of all bytes. Runs on the calling
  * thread alone. */
-zt_result zt_reconstruct_for(zt_decoder* decoder, int32_t level, void* positions,
-                             size_t position_stride, void* normals, size_t normal_stride,
-                             uint32_t vertex_capacity, uint32_t budget_us);
+ZT_API zt_result zt_reconstruct_for(zt_decoder* decoder, int32_t level, void* positions,
+                                    size_t position_stride, void* normals, size_t normal_stride,
+                                    uint32_t vertex_capacity, uint32_t budget_us);
 
 /* The triangles of `level`, three indices each, counter-clockwise seen from outside. `index_size`
  * is 2 or 4 bytes an index; 2 needs a level of at most 65535 vertices. `triangle_capacity` is at
  * least zt_triangle_count. */
-zt_result zt_get_indices(zt_decoder* decoder, int32_t level, void* indices, uint32_t index_size,
-                         uint32_t triangle_capacity);
+ZT_API zt_result zt_get_indices(zt_decoder* decoder, int32_t level, void* indices,
+                                uint32_t index_size, uint32_t triangle_capacity);
 
 /* An axis-aligned box that contains the surface that the bytes so far stand for. Costs less than
  * reconstructing level 4. */
-zt_result zt_get_bounds(zt_decoder* decoder, float low[3], float high[3]);
+ZT_API zt_result zt_get_bounds(zt_decoder* decoder, float low[3], float high[3]);
 
 /* Tells the decoder what its file says of errors: rows of ascending length. They are copied. */
-zt_result zt_set_prefix_errors(zt_decoder* decoder, const zt_prefix_error* rows, uint32_t count);
+ZT_API zt_result zt_set_prefix_errors(zt_decoder* decoder, const zt_prefix_error* rows,
+                                      uint32_t count);
 
 /* Length of the shortest prefix whose error is at most `max_error` by zt_set_prefix_errors; the
  * longest known one if none is, 0 if none is known. */
-uint64_t zt_bytes_for_error(const zt_decoder* decoder, float max_error);
+ZT_API uint64_t zt_bytes_for_error(const zt_decoder* decoder, float max_error);
 
 /* How far the triangles of `level` are from those of the finest level at most, for the bytes so
  * far: no more than this pops when a viewer switches between them. All levels are samples of one
  * limit surface, so this is only the height of chords. Measured on the surface up to level 5, from
  * there on a quarter per level. Costs about as much as reconstructing level 5 after new bytes. */
-zt_result zt_get_level_error(zt_decoder* decoder, int32_t level, float* error);
+ZT_API zt_result zt_get_level_error(zt_decoder* decoder, int32_t level, float* error);
 
 /* The coarsest level with a zt_get_level_error of at most `max_error`; the finest if none is. For
  * an error of `pixels` on the screen, max_error = 2 distance tan(fov / 2) pixels / viewport height.
  */
-zt_result zt_choose_level(zt_decoder* decoder, float max_error, int32_t* level);
+ZT_API zt_result zt_choose_level(zt_decoder* decoder, float max_error, int32_t* level);
 
-/* "0.1.0" */
-const char* zt_version(void);
+/* The version of the library: ZT_VERSION of the headers it was built with. */
+ZT_API const char* zt_version(void);
 
 #ifdef __cplusplus
 }

@@ -384,7 +384,7 @@ zt_result zt_choose_level(zt_decoder* decoder, float max_error, int32_t* level) 
 }
 
 const char* zt_version(void) {
-  return ZEROTREE_VERSION;
+  return ZT_VERSION;
 }
 
 }  // extern "C"
