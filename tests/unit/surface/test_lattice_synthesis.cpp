@@ -73,7 +73,7 @@ class Lattices : public testing::TestWithParam<std::tuple<Shape, int>> {
         levels_(std::get<1>(GetParam())),
         base_(topology_of(shape_)),
         hierarchy_(base_, levels_, kLocal),
-        mesh_(base_, bitstream::number_base_edges(base_), std::pmr::get_default_resource()),
+        mesh_(base_, bitstream::number_base_edges(base_).edges, std::pmr::get_default_resource()),
         positions_(positions_of(shape_.mesh)) {}
 
   Limits expected(const bitstream::CoefficientSet& set, const surface::Dequantisation& d) {
