@@ -127,7 +127,7 @@ inline void DetailState::scatter_to_triangle(const ChannelCells& cells, int leve
     const std::uint32_t turn = last & (0u - (side.edges[j] & 1));
     const std::uint32_t end = spread_sum(place, row);
     const std::size_t i =
-        cell_index(level, SpreadCell{edge, end ^ turn, place ^ turn});
+        spread_cell_index(level, {edge, end ^ turn, place ^ turn});
     add(cells.around[i], kFaceNeighbour);
     if (kNormalChannel) add(cells.lean[i], sign * kFaceLean);
     cells.touched[i / kBlockCells] = 1;
