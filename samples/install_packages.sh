@@ -11,7 +11,7 @@ run_packages=(
   libtbb-dev libembree-dev libdraco-dev libmeshoptimizer-dev libstb-dev zlib1g-dev
   fonts-dejavu-core libgtest-dev)
 test_packages=(
-  assimp-utils draco gnuplot-nox python3 clang-format)
+  assimp-utils draco gnuplot-nox python3 clang-format libbenchmark-dev)
 
 case "${1:-}" in
   run) wanted=("${run_packages[@]}") ;;

@@ -77,8 +77,8 @@ TEST(DecoderMemory, FinestLevelsTakeSixteenBytesACell) {
   constexpr std::uint64_t kEdges = 600;
   constexpr int kLevels = 7;
   const std::uint64_t cells = kEdges * bitstream::cells_below(kLevels);
-  const double each = static_cast<double>(DetailState::memory(kEdges, kLevels, 14)) /
-                      static_cast<double>(cells);
+  const double each =
+      static_cast<double>(DetailState::memory(kEdges, kLevels, 14)) / static_cast<double>(cells);
   EXPECT_LT(each, 16.1);
   EXPECT_GE(each, 16.0);
 }
@@ -109,8 +109,8 @@ TEST(DecoderMemory, ValuesAreWidenedWhereTheyNeedIt) {
 }
 
 TEST(DecoderMemory, LevelsWithoutDetailsAreNotTouched) {
-  StreamContent content = test::empty_content(test::canonical_base(test::base_shapes()[0]), 5,
-                                              true, 1);
+  StreamContent content =
+      test::empty_content(test::canonical_base(test::base_shapes()[0]), 5, true, 1);
   content.coefficients.channels[bitstream::kTangent1][some_cell(content, 1)] = 2 * 40 + 1;
   StreamDecoder decoder;
   EXPECT_EQ(decoder.feed(encode_stream(content).bytes), DecodeStatus::done);
