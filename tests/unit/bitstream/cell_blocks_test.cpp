@@ -77,7 +77,9 @@ TEST(CellBlocks, ACellClosesWhenItIsCodedAndAllItsChildrenAreClosed) {
       // No more than are looked at.
       std::vector<std::uint8_t> children(4 * count);
       for (std::uint8_t& f : before) f = static_cast<std::uint8_t>(random() % 3);
-      for (std::uint8_t& f : children) f = random() % 8 == 0 ? 0 : 1 << (random() % 4);
+      for (std::uint8_t& f : children) {
+        f = static_cast<std::uint8_t>(random() % 8 == 0 ? 0 : 1 << (random() % 4));
+      }
       std::copy(std::begin(before), std::end(before), flags);
       close_cells(flags, children.data(), count, closed);
       for (std::size_t i = 0; i < kBlockCells; ++i) {
