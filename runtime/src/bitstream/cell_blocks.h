@@ -26,26 +26,32 @@ enum CellFlag : std::uint8_t {
 /// Bit i stands for cell i of a block.
 using BlockMask = std::uint64_t;
 
-/// Which of the bytes, each 0 or 255, are 255.
-inline BlockMask mask_of(const std::uint8_t (&bytes)[kBlockCells]) {
-  BlockMask mask = 0;
-#ifdef __SSE2__
-  for (std::size_t k = 0; k < kBlockCells; k += 16) {
-    const __m128i sixteen = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes + k));
-    mask |= BlockMask{static_cast<std::uint16_t>(_mm_movemask_epi8(sixteen))} << k;
-  }
-#else
+/// Which of the bytes, each 0 or 255, are 255: for any machine.
+inline BlockMask gathered_mask(const std::uint8_t (&bytes)[kBlockCells]) {
   // The product moves the lowest bit of byte i to bit 56 + i; no two of its parts meet.
-  constexpr std::uint64_t kGather = std::endian::native == std::endian::little
-                                        ? 0x0102040810204080u
-                                        : 0x8040201008040201u;
+  constexpr std::uint64_t kGather =
+      std::endian::native == std::endian::little ? 0x0102040810204080u : 0x8040201008040201u;
+  BlockMask mask = 0;
   for (std::size_t k = 0; k < kBlockCells; k += 8) {
     std::uint64_t eight;
     std::memcpy(&eight, bytes + k, 8);
     mask |= (((eight & 0x0101010101010101u) * kGather) >> 56) << k;
   }
-#endif
   return mask;
+}
+
+/// The same, by the instruction that some machines have for it.
+inline BlockMask mask_of(const std::uint8_t (&bytes)[kBlockCells]) {
+#ifdef __SSE2__
+  BlockMask mask = 0;
+  for (std::size_t k = 0; k < kBlockCells; k += 16) {
+    const __m128i sixteen = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes + k));
+    mask |= BlockMask{static_cast<std::uint16_t>(_mm_movemask_epi8(sixteen))} << k;
+  }
+  return mask;
+#else
+  return gathered_mask(bytes);
+#endif
 }
 
 /// The cells of a block that are neither coded nor absent and have at least `activity` around and

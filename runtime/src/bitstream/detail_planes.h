@@ -137,7 +137,7 @@ class DetailPlanes {
         const int which = int{known >= 8} + int{known >= 16};
         const int activity = std::min(255, cells.around[i] + cells.above[i]);
         const bool bit = coder.code_even(coding_.details.bit(c, first_cell + i, plane),
-                                    contexts[which][kRefinementClass[activity]]);
+                                         contexts[which][kRefinementClass[activity]]);
         if (coder.starved()) return stop_at(i);
         const int outwards = bit ? half : -half;
         values[i] = static_cast<Value>(value + (value < 0 ? -outwards : outwards));

@@ -20,8 +20,9 @@ void add(std::int8_t& sum, int weight) {
   sum = static_cast<std::int8_t>(std::clamp(sum + weight, -127, 127));
 }
 
-// Steps in q change one half of the index's bits, steps in p the other. A neighbour beyond the image
-// is the cell's own row or column with no weight: that costs less than a jump that few foresee.
+// Steps in q change one half of the index's bits, steps in p the other. A neighbour beyond the
+// image is the cell's own row or column with no weight: that costs less than a jump that few
+// foresee.
 template <bool kNormalChannel>
 inline void scatter_to_ring(const ChannelCells& cells, int level, const SpreadCell& cell,
                             int sign) {
@@ -114,9 +115,8 @@ void DetailState::scatter(const ChannelCells& cells, int level, std::size_t inde
 }
 
 template <bool kNormalChannel>
-inline void DetailState::scatter_to_triangle(const ChannelCells& cells, int level,
-                                             const Side& side, const SmallTriangle& triangle,
-                                             int sign) {
+inline void DetailState::scatter_to_triangle(const ChannelCells& cells, int level, const Side& side,
+                                             const SmallTriangle& triangle, int sign) {
   const std::uint32_t last = spread_last(level);
   const std::array<std::uint32_t, 3> corner = {triangle.rest, triangle.place, triangle.row};
   for (int j = 1; j < 3; ++j) {
@@ -126,8 +126,7 @@ inline void DetailState::scatter_to_triangle(const ChannelCells& cells, int leve
     // A coordinate counted from the other end is its complement.
     const std::uint32_t turn = last & (0u - (side.edges[j] & 1));
     const std::uint32_t end = spread_sum(place, row);
-    const std::size_t i =
-        cell_index(level, SpreadCell{edge, end ^ turn, place ^ turn});
+    const std::size_t i = spread_cell_index(level, {edge, end ^ turn, place ^ turn});
     add(cells.around[i], kFaceNeighbour);
     if (kNormalChannel) add(cells.lean[i], sign * kFaceLean);
     cells.touched[i / kBlockCells] = 1;

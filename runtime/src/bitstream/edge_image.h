@@ -69,7 +69,7 @@ constexpr SpreadCell spread_cell_at(int level, std::size_t index) {
           morton & kSpreadMask};
 }
 
-constexpr std::size_t cell_index(int level, const SpreadCell& cell) {
+constexpr std::size_t spread_cell_index(int level, const SpreadCell& cell) {
   return (std::size_t{cell.base_edge} << (2 * level)) | ((cell.p << 1) | cell.q);
 }
 

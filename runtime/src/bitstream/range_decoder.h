@@ -38,7 +38,8 @@ class RangeDecoder {
   /// Decodes one bit; the argument is there for the encoder's sake.
   bool code(bool /*bit*/, AdaptiveBit& context) {
     const std::uint64_t bound = (range_ * context.probability_of_one()) >> 16;
-    if (is_open(bound)) [[unlikely]] return false;
+    if (is_open(bound)) [[unlikely]]
+      return false;
     // A jump: most bits are foreseen, so the next decision can begin before this one is known.
     const bool one = (window_ >> 32) < bound;
     if (one) {
@@ -54,7 +55,8 @@ class RangeDecoder {
   /// The same, faster for a bit that is hard to foresee if the caller does not jump on it either.
   bool code_even(bool /*bit*/, AdaptiveBit& context) {
     const std::uint64_t bound = (range_ * context.probability_of_one()) >> 16;
-    if (is_open(bound)) [[unlikely]] return false;
+    if (is_open(bound)) [[unlikely]]
+      return false;
     const bool one = take(bound);
     context.update(one);
     return one;
@@ -63,7 +65,8 @@ class RangeDecoder {
   /// Decodes one equiprobable bit.
   bool code_raw(bool /*bit*/) {
     const std::uint64_t bound = range_ >> 1;
-    if (is_open(bound)) [[unlikely]] return false;
+    if (is_open(bound)) [[unlikely]]
+      return false;
     return take(bound);
   }
 
@@ -84,7 +87,8 @@ class RangeDecoder {
 
   // Whether bits that are missing from the register decide: then the decoder is starved.
   bool is_open(std::uint64_t bound) {
-    if (known_bits_ >= 32) [[likely]] return false;
+    if (known_bits_ >= 32) [[likely]]
+      return false;
     starved_ = differs(window_, known_bits_, bound);
     return starved_;
   }
@@ -104,7 +108,8 @@ class RangeDecoder {
   void take_zero(std::uint64_t bound) {
     window_ -= bound << 32;
     range_ -= bound;
-    if (range_ < kSmallestRange) [[unlikely]] normalise();
+    if (range_ < kSmallestRange) [[unlikely]]
+      normalise();
   }
 
   // All ones or all zeros in a mask, because compilers make jumps of a choice.
@@ -113,7 +118,8 @@ class RangeDecoder {
     const std::uint64_t mask = std::uint64_t{0} - std::uint64_t{one};
     window_ -= (bound << 32) & ~mask;
     range_ = range_ - bound + ((2 * bound - range_) & mask);
-    if (range_ < kSmallestRange) [[unlikely]] normalise();
+    if (range_ < kSmallestRange) [[unlikely]]
+      normalise();
     return one;
   }
 

@@ -77,8 +77,7 @@ std::span<const std::uint8_t> StreamDecoder::State::read_stream_header(
   const std::size_t added = std::min(bytes.size(), header_bytes.size() - known);
   std::copy_n(bytes.begin(), added, header_bytes.begin() + known);
   StreamHeader read;
-  HeaderResult result =
-      read_header(std::span(header_bytes).first(known + added), limits, read);
+  HeaderResult result = read_header(std::span(header_bytes).first(known + added), limits, read);
   if (result.status == DecodeStatus::broken) {
     fail(std::move(result.reason));
   } else if (result.status == DecodeStatus::done) {

@@ -186,7 +186,8 @@ std::string check_size(const StreamHeader& header, const Limits& limits) {
   if (header.vertex_count + fewest_edges * cells_below(header.levels) > limits.max_vertices) {
     return "the stream has more vertices than the limit";
   }
-  if (header.face_count * kBaseBytesPerFace + DetailState::memory(fewest_edges, header.levels, header.planes) >
+  if (header.face_count * kBaseBytesPerFace +
+          DetailState::memory(fewest_edges, header.levels, header.planes) >
       limits.max_memory) {
     return "the stream needs more memory than the limit";
   }

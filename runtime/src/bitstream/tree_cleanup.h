@@ -79,11 +79,12 @@ class TreeCleanup {
     node.stage = Stage::leave;
     if ((flags[node.index] & coding_.state.closed_flags(node.level)) != 0) return true;
     if (!is_implied(node)) {
-      const int activity = flags[node.index] == 0 ? quiet_class(node)
-                                                  : static_cast<int>(kQuietCuts.size()) + 1;
+      const int activity =
+          flags[node.index] == 0 ? quiet_class(node) : static_cast<int>(kQuietCuts.size()) + 1;
       AdaptiveBit& context =
           coding_.contexts.tree[kind()][height(node)][activity][has_found(node) ? 1 : 0];
-      const bool holds = coder.code(coding_.details.tree_significant(channel_, cell(node)), context);
+      const bool holds =
+          coder.code(coding_.details.tree_significant(channel_, cell(node)), context);
       if (coder.starved()) {
         node.stage = Stage::tree;
         return false;

@@ -153,14 +153,17 @@ TEST_P(EveryPrefix, OfNoBytesIsTheSmoothSurfaceOfTheBase) {
 
   Decoder decoder = decoder_for(sample, false);
   EXPECT_EQ(decoder.status(), ZT_MORE_BYTES_WANTED);
-  EXPECT_EQ(surface_of(decoder, kLevels).positions, limit);
+  const std::vector<float> smooth_positions = surface_of(decoder, kLevels).positions;
+  ASSERT_EQ(smooth_positions.size(), limit.size());
+  for (std::size_t i = 0; i < limit.size(); ++i)
+    EXPECT_NEAR(smooth_positions[i], limit[i], 1e-5f);  // of coordinates up to 8
   // Bytes that end within the header change nothing.
   decoder.feed(std::span(sample.stream.bytes).first(10));
   EXPECT_EQ(decoder.info().header_ready, 0);
-  EXPECT_EQ(surface_of(decoder, kLevels).positions, limit);
+  EXPECT_EQ(surface_of(decoder, kLevels).positions, smooth_positions);
   decoder.feed(std::span(sample.stream.bytes).subspan(10));
   EXPECT_EQ(decoder.status(), ZT_DONE);
-  EXPECT_NE(surface_of(decoder, kLevels).positions, limit);
+  EXPECT_NE(surface_of(decoder, kLevels).positions, smooth_positions);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryPrefix, testing::ValuesIn(base_shapes()),
