@@ -114,6 +114,23 @@ double largest_difference(const Positions& a, const Positions& b) {
   return largest;
 }
 
+surface::Dequantisation steps_of(const surface::ProgressiveSurface& decoded) {
+  const bitstream::StreamHeader& header = decoded.decoder().header();
+  return {header.finest_step, std::ldexp(1.0f, header.tangent_ratio_log2)};
+}
+
+/// Limit positions of control points, and of what was decoded.
+Positions limit_of(const SubdivisionLevel& level, const Positions& points) {
+  Positions limit(points.size());
+  surface::limit_surface(level, points, {limit.data()}, {});
+  return limit;
+}
+Positions limit_of(surface::ProgressiveSurface& decoded, int level) {
+  Positions limit(3 * decoded.counts(level).vertices);
+  EXPECT_EQ(decoded.write_limits(level, {{limit.data()}, {}}), surface::SurfaceOutcome::done);
+  return limit;
+}
+
 class DecodedSurface : public testing::TestWithParam<surface::WaveletTransform> {};
 
 // P passes the error of coarser levels on without making it larger, so those of the details add up
@@ -125,6 +142,7 @@ TEST_P(DecodedSurface, IsTheEncodedOneWithinTheSteps) {
     ASSERT_EQ(decoded.feed(sample.stream.bytes), bitstream::DecodeStatus::done);
     EXPECT_EQ(decoded.decoder().header().transform, static_cast<std::uint32_t>(GetParam()));
     const SubdivisionHierarchy hierarchy(decoded.base(), kLevels, GetParam());
+    const surface::Dequantisation steps = steps_of(decoded);
     Positions expected = sample.stream.base_positions, points = expected;
     double bound = 1e-5;
     for (int number = 0; number < kLevels; ++number) {
@@ -133,9 +151,11 @@ TEST_P(DecodedSurface, IsTheEncodedOneWithinTheSteps) {
       surface::add_details(level, single_precision(sample.decomposition.details[number]), expected);
       bound += largest_move(
           level, detail_errors(decoded, level, number, surface::subdivide(level, points)));
-      ASSERT_NE(decoded.topology(number + 1), nullptr);
-      points = decoded.control_points(number + 1);
-      EXPECT_LT(largest_difference(points, expected), bound)
+      points = surface::reconstruct(hierarchy, sample.stream.base_positions,
+                                    decoded.decoder().coefficients(), steps, number + 1);
+      // Limit positions are weighted means of control points.
+      const Positions limit = limit_of(decoded, number + 1);
+      EXPECT_LT(largest_difference(limit, limit_of(hierarchy.level(number + 1), expected)), bound)
           << shape.name << " at level " << number + 1;
     }
   }
@@ -159,14 +179,14 @@ TEST_P(DecodedSurface, OverAnExternalBaseChangesToTheTransformNamed) {
   test::add_random_details(content, 0.5, 3, 4);
   const std::vector<std::uint8_t> bytes = encode::encode_stream(content).bytes;
   surface::ProgressiveSurface decoded({base, test::external_positions(base), 2});
-  ASSERT_NE(decoded.topology(2), nullptr);
+  const Positions smooth = limit_of(decoded, 2);
   ASSERT_EQ(decoded.feed(bytes), bitstream::DecodeStatus::done) << decoded.reason();
-  ASSERT_NE(decoded.topology(2), nullptr);
-  const surface::Dequantisation steps{
-      content.header.finest_step, std::ldexp(1.0f, decoded.decoder().header().tangent_ratio_log2)};
-  EXPECT_EQ(decoded.control_points(2),
-            surface::reconstruct(SubdivisionHierarchy(base, 2, GetParam()),
-                                 test::external_positions(base), content.coefficients, steps, 2));
+  const SubdivisionHierarchy hierarchy(base, 2, GetParam());
+  const Positions expected = limit_of(
+      hierarchy.level(2), surface::reconstruct(hierarchy, test::external_positions(base),
+                                               content.coefficients, steps_of(decoded), 2));
+  EXPECT_LT(largest_difference(limit_of(decoded, 2), expected), 1e-5);
+  EXPECT_GT(largest_difference(smooth, expected), 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Transforms, DecodedSurface, testing::ValuesIn(test::kTransforms),
