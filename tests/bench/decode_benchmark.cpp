@@ -1,7 +1,7 @@
 // How long decoding takes: prefixes of a stream, at once and in pieces.
 // Usage: decode_benchmark STREAM.zt [options of Google Benchmark]
-// STREAM.zt is an elementary stream, as `zerotree convert in.ply out.zt` writes it, or the word
-// "sphere" for one made in code.
+// STREAM.zt is an elementary stream, as `zerotree convert in.ply -o out.glb --stream out.zt` writes
+// it, or the word "sphere" for one made in code.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 
