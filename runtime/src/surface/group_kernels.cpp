@@ -44,14 +44,15 @@ class SideDetails {
     }
   }
 
-  /// False: no lane has a detail there.
-  bool read(const LatticeEdge& edge, LanePoint& detail) const {
+  enum class Found : std::uint8_t { nothing, normal, any };
+  /// What the lanes have there.
+  Found read(const LatticeEdge& edge, LanePoint& detail) const {
     const LaneIntegers normal = values(channels_[0], edge), first = values(channels_[1], edge),
                        second = values(channels_[2], edge);
-    if (!any_of(normal | first | second)) return false;
     detail = {channels_[0].units * to_floats(normal), channels_[1].units * to_floats(first),
               channels_[2].units * to_floats(second)};
-    return true;
+    if (any_of(first | second)) return Found::any;
+    return any_of(normal) ? Found::normal : Found::nothing;
   }
 
  private:
@@ -81,19 +82,22 @@ class SideDetails {
 void find_moves(const LatticeLevel& level, const GroupDetails& group, const LanePoint* fine,
                 LanePoint* moves) {
   const int number = std::countr_zero(static_cast<unsigned>(level.segments));
-  const auto move_of = [&](const LatticeEdge& edge, const LanePoint& detail) {
+  const AreaScale area(kInteriorAreaShare, group.mean_area);
+  using Found = SideDetails::Found;
+  const auto move_of = [&](const LatticeEdge& edge, const LanePoint& detail, bool is_normal) {
     const auto& wings = edge.wings;
     const LaneTangents tangents =
         inner_edge_tangents(fine[edge.tail], fine[edge.head], fine[wings[0]], fine[wings[1]],
                             fine[wings[2]], fine[wings[3]]);
-    return detail_moves(tangents, detail, kInteriorAreaShare, group.mean_area, group.lanes_used);
+    return detail_moves(tangents, detail, is_normal, area, group.lanes_used);
   };
   for (std::size_t side = 0; side < 3; ++side) {
     const SideDetails details(group, number, side);
     for (const LatticeEdge& edge : level.edges[side]) {
       LanePoint detail{};
+      const Found found = details.read(edge, detail);
       moves[edge.odd - level.point_count] =
-          details.read(edge, detail) ? move_of(edge, detail) : LanePoint{};
+          found == Found::nothing ? LanePoint{} : move_of(edge, detail, found == Found::normal);
     }
   }
 }

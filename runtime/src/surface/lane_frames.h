@@ -62,37 +62,61 @@ inline LaneTangents boundary_edge_tangents(const LanePoint& tail, const LanePoin
   return {head - tail, (left_tail - tail) + (left_head - head)};
 }
 
-/// What details (normal, tangent 1, tangent 2) move the odd vertices of the first `lanes` lanes:
-/// surface/detail_weights.h. Where a detail is zero so is the move.
-inline LanePoint detail_moves(const LaneTangents& tangents, const LanePoint& detail,
-                              double area_share, double mean_area, std::size_t lanes) {
+/// How the length of a cross product of tangents becomes an area weight: surface/detail_weights.h.
+struct AreaScale {
+  AreaScale(double share_of_area, double mean)
+      : area_share(share_of_area),
+        mean_area(mean),
+        weight2_per_length(static_cast<float>((1.0 - kMeanAreaShare) * share_of_area / mean)) {}
+
+  double area_share, mean_area;
+  float weight2_per_length;
+};
+
+/// Moves that floats are too coarse for: of the lanes not `good` with a detail. Zero details move
+/// nothing.
+inline void settle_moves(const LaneTangents& tangents, const LanePoint& detail,
+                         const AreaScale& area, const LaneMask& good, std::size_t lanes,
+                         LanePoint& move) {
+  const LaneMask zero = (detail.x == 0.0f) & (detail.y == 0.0f) & (detail.z == 0.0f);
+  const LaneMask keep = good & ~zero;
+  move = {keep ? move.x : Lanes{}, keep ? move.y : Lanes{}, keep ? move.z : Lanes{}};
+  if (all_of(good | zero)) return;
+  for (std::size_t lane = 0; lane < lanes; ++lane)
+    if (!(good[lane] | zero[lane]))
+      set_lane(move, lane,
+               detail_move({vector_in(tangents.along, lane), vector_in(tangents.across, lane),
+                            area.area_share},
+                           vector_in(detail, lane), area.mean_area));
+}
+
+/// What details (normal, tangent 1, tangent 2) move the odd vertices of the first `lanes` lanes.
+/// `is_normal`: all tangential details are zero, as most are.
+inline LanePoint detail_moves(const LaneTangents& tangents, const LanePoint& detail, bool is_normal,
+                              const AreaScale& area, std::size_t lanes) {
   const auto& [along, across] = tangents;
   const LanePoint normal = cross_product(along, across);
   const CrossLengths lengths{dot_product(along, along), dot_product(across, across),
                              dot_product(normal, normal)};
-  const Lanes along_length = square_root(lengths.first2);
   const Lanes normal_length = square_root(lengths.cross2);
-  const auto share = static_cast<float>((1.0 - kMeanAreaShare) * area_share / mean_area);
-  const Lanes weight2 = share * normal_length + static_cast<float>(kMeanAreaShare);
+  const Lanes weight2 =
+      area.weight2_per_length * normal_length + static_cast<float>(kMeanAreaShare);
   const auto largest2 = static_cast<float>(kLargestAreaWeight * kLargestAreaWeight);
   const Lanes weight = square_root(weight2 < largest2 ? weight2 : Lanes{} + largest2);
 
-  const Lanes scale = 1.0f / (normal_length * along_length * weight);
-  LanePoint move = (detail.x * along_length * scale) * normal;
-  move += (detail.y * normal_length * scale) * along;
-  move += (detail.z * scale) * cross_product(normal, along);
-
+  LanePoint move;
+  if (is_normal) {
+    move = (detail.x / (normal_length * weight)) * normal;
+  } else {
+    const Lanes along_length = square_root(lengths.first2);
+    const Lanes scale = 1.0f / (normal_length * along_length * weight);
+    move = (detail.x * along_length * scale) * normal;
+    move += (detail.y * normal_length * scale) * along;
+    move += (detail.z * scale) * cross_product(normal, along);
+  }
   const LaneMask good = lengths.suffice_as_floats() & (lengths.first2 > 1e-15f) &
                         (lengths.first2 < 1e15f) & (weight2 > 0.0f);
-  const LaneMask zero = (detail.x == 0.0f) & (detail.y == 0.0f) & (detail.z == 0.0f);
-  const LaneMask keep = good & ~zero;
-  move = {keep ? move.x : Lanes{}, keep ? move.y : Lanes{}, keep ? move.z : Lanes{}};
-  if (!all_of(good | zero))
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      if (!(good[lane] | zero[lane]))
-        set_lane(move, lane,
-                 detail_move({vector_in(along, lane), vector_in(across, lane), area_share},
-                             vector_in(detail, lane), mean_area));
+  settle_moves(tangents, detail, area, good, lanes, move);
   return move;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace zerotree::surface {
 
@@ -58,9 +59,10 @@ inline Lanes to_floats(const LaneIntegers& values) {
   return __builtin_convertvector(values, Lanes);
 }
 inline bool any_of(const LaneIntegers& values) {
-  std::int32_t any = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) any |= values[lane];
-  return any != 0;
+  static_assert(kLanes * sizeof(std::int32_t) == 2 * sizeof(std::uint64_t));
+  std::uint64_t halves[2];
+  std::memcpy(halves, &values, sizeof halves);
+  return (halves[0] | halves[1]) != 0;
 }
 
 /// x, y, z and something of each lane.
@@ -76,9 +78,7 @@ inline std::array<Lanes, kLanes> by_lane(const LanePoint& p) {
           __builtin_shufflevector(xy_high, z_high, 2, 3, 6, 7)};
 }
 inline bool all_of(const LaneMask& mask) {
-  int all = -1;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) all &= mask[lane];
-  return all != 0;
+  return !any_of(~mask);
 }
 
 }  // namespace zerotree::surface

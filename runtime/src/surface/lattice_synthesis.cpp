@@ -191,9 +191,10 @@ void LatticeSynthesis::move_strip(int level, std::size_t number, Scratch& scratc
   const StripRows fine =
       gather_rows(strip, mesh_.lattice(level + 1), points_at(level + 1), scratch.rows.data());
   const std::span<PointF> moves = strip_moves(level, number);
+  const AreaScale area(strip.is_boundary() ? kBoundaryAreaShare : kInteriorAreaShare, mean_area_);
   for_lanes(0, moves.size(), [&](std::size_t i, std::size_t lanes) {
     const LanePoint detail = strip_detail(level, number, i, lanes);
-    const LanePoint move = moves_on_strip(strip, fine, i, detail, mean_area_, lanes);
+    const LanePoint move = moves_on_strip(strip, fine, i, detail, area, lanes);
     for (std::size_t lane = 0; lane < lanes; ++lane) moves[i + lane] = point_in(move, lane);
   });
 }

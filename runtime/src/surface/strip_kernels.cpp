@@ -56,17 +56,17 @@ LanePoint odd_on_strip(const BaseStrip& strip, const StripRows& rows, std::size_
 }
 
 LanePoint moves_on_strip(const BaseStrip& strip, const StripRows& fine, std::size_t i,
-                         const LanePoint& detail, double mean_area, std::size_t lanes) {
+                         const LanePoint& detail, const AreaScale& area, std::size_t lanes) {
   const std::size_t k = 2 * i;
   const LanePoint tail = fine.row.every_second(k), head = fine.row.every_second(k + 2);
   const LanePoint left_tail = fine.left.every_second(k), left_head = fine.left.every_second(k + 1);
   if (strip.is_boundary())
-    return detail_moves(boundary_edge_tangents(tail, head, left_tail, left_head), detail,
-                        kBoundaryAreaShare, mean_area, lanes);
+    return detail_moves(boundary_edge_tangents(tail, head, left_tail, left_head), detail, false,
+                        area, lanes);
   return detail_moves(
       inner_edge_tangents(tail, head, left_tail, left_head, fine.right.every_second(k),
                           fine.right.every_second(k + 1)),
-      detail, kInteriorAreaShare, mean_area, lanes);
+      detail, false, area, lanes);
 }
 
 LanePoint limits_on_strip(const BaseStrip& strip, const StripRows& rows, std::size_t i) {

@@ -80,7 +80,7 @@ LanePoint odd_on_strip(const BaseStrip& strip, const StripRows& rows, std::size_
 /// What details of `lanes` segments from `i` on move their odd points. `fine` are the rows of the
 /// finer level before any detail.
 LanePoint moves_on_strip(const BaseStrip& strip, const StripRows& fine, std::size_t i,
-                         const LanePoint& detail, double mean_area, std::size_t lanes);
+                         const LanePoint& detail, const AreaScale& area, std::size_t lanes);
 
 /// Limit positions from point `i` on, which is no end, and unit normals of `lanes` of them.
 LanePoint limits_on_strip(const BaseStrip& strip, const StripRows& rows, std::size_t i);
