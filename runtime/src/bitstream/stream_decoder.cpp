@@ -227,7 +227,8 @@ void StreamDecoder::forget_changes() {
 }
 
 std::vector<float> StreamDecoder::base_positions() const {
-  std::vector<float> positions(3 * std::size_t{state_->base.vertex_count});
+  std::vector<float> positions(state_->external ? state_->external_positions.size()
+                                                : state_->positions->values().size());
   get_base_positions(positions);
   return positions;
 }
