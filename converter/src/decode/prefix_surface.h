@@ -8,7 +8,7 @@
 #include "bitstream/stream_decoder.h"
 #include "decode/stream_file.h"
 #include "export/mesh_bytes.h"
-#include "surface/progressive_surface.h"
+#include "progressive/progressive_surface.h"
 
 namespace zerotree::decode {
 

@@ -8,7 +8,7 @@
 #include "bitstream/base_hash.h"
 #include "bitstream/base_traversal.h"
 #include "bitstream/stream_decoder.h"
-#include "surface/progressive_surface.h"
+#include "progressive/progressive_surface.h"
 
 namespace zerotree::validate {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "api/decoder_memory.h"
-#include "surface/progressive_surface.h"
+#include "progressive/progressive_surface.h"
 #include "zerotree/zerotree.h"
 
 namespace {

@@ -11,11 +11,11 @@
 #include "bitstream/base_traversal.h"
 #include "encode/encode.h"
 #include "encode/stream_encoder.h"
+#include "progressive/progressive_surface.h"
 #include "random_content.h"
 #include "shapes.h"
 #include "surface/detail_weights.h"
 #include "surface/edge_frames.h"
-#include "surface/progressive_surface.h"
 #include "surface/surface_synthesis.h"
 #include "transforms.h"
 

@@ -1,8 +1,8 @@
-#include "surface/lattice_mesh.h"
+#include "lattice/lattice_mesh.h"
 
 #include <algorithm>
 
-#include "surface/lanes.h"
+#include "lattice/lanes.h"
 
 namespace zerotree::surface {
 

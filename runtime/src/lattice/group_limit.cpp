@@ -1,12 +1,12 @@
-#include "surface/group_limit.h"
+#include "lattice/group_limit.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 
-#include "surface/lane_frames.h"
-#include "surface/loop_weights.h"
+#include "lattice/lane_frames.h"
+#include "lattice/loop_weights.h"
 
 namespace zerotree::surface {
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "surface/lattice_mesh.h"
-#include "surface/lattice_points.h"
-#include "surface/level_details.h"
+#include "lattice/lattice_mesh.h"
+#include "lattice/lattice_points.h"
+#include "lattice/level_details.h"
 
 namespace zerotree::surface {
 

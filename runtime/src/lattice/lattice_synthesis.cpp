@@ -1,13 +1,13 @@
-#include "surface/lattice_synthesis.h"
+#include "lattice/lattice_synthesis.h"
 
 #include <algorithm>
 #include <array>
 
 #include "bitstream/edge_image.h"
-#include "surface/group_kernels.h"
-#include "surface/group_limit.h"
+#include "lattice/group_kernels.h"
+#include "lattice/group_limit.h"
+#include "lattice/strip_kernels.h"
 #include "surface/local_filter.h"
-#include "surface/strip_kernels.h"
 
 namespace zerotree::surface {
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <tuple>
 
-#include "surface/level_schedule.h"
+#include "lattice/level_schedule.h"
 #include "surface_shapes.h"
 
 namespace zerotree::test {

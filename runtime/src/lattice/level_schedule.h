@@ -10,8 +10,8 @@
 #include <optional>
 #include <span>
 
-#include "surface/lattice_synthesis.h"
-#include "surface/level_details.h"
+#include "lattice/lattice_synthesis.h"
+#include "lattice/level_details.h"
 #include "surface/limit_output.h"
 
 namespace zerotree::surface {

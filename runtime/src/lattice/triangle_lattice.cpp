@@ -1,4 +1,4 @@
-#include "surface/triangle_lattice.h"
+#include "lattice/triangle_lattice.h"
 
 #include <cstddef>
 #include <utility>

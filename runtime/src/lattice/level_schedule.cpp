@@ -1,4 +1,4 @@
-#include "surface/level_schedule.h"
+#include "lattice/level_schedule.h"
 
 #include <algorithm>
 #include <atomic>

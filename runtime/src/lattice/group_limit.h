@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "surface/lanes.h"
-#include "surface/lattice_mesh.h"
+#include "lattice/lanes.h"
+#include "lattice/lattice_mesh.h"
 #include "surface/limit_output.h"
 
 namespace zerotree::surface {

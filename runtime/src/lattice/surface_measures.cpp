@@ -1,4 +1,4 @@
-#include "surface/surface_measures.h"
+#include "lattice/surface_measures.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "surface/group_kernels.h"
+#include "lattice/group_kernels.h"
 
 #include <bit>
 
-#include "surface/lane_frames.h"
+#include "lattice/lane_frames.h"
+#include "lattice/loop_weights.h"
 #include "surface/local_filter.h"
-#include "surface/loop_weights.h"
 
 namespace zerotree::surface {
 

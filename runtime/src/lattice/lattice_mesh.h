@@ -10,8 +10,8 @@
 
 #include "bitstream/base_edges.h"
 #include "bitstream/base_topology.h"
-#include "surface/base_fans.h"
-#include "surface/triangle_lattice.h"
+#include "lattice/base_fans.h"
+#include "lattice/triangle_lattice.h"
 
 namespace zerotree::surface {
 

@@ -1,4 +1,4 @@
-#include "surface/progressive_surface.h"
+#include "progressive/progressive_surface.h"
 
 #include <algorithm>
 #include <climits>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "bitstream/base_edges.h"
-#include "surface/surface_measures.h"
+#include "lattice/surface_measures.h"
 #include "surface/surface_synthesis.h"
 
 namespace zerotree::surface {

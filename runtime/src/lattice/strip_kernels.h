@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <cstring>
 
-#include "surface/base_fans.h"
-#include "surface/lane_frames.h"
-#include "surface/lattice_points.h"
-#include "surface/level_details.h"
-#include "surface/triangle_lattice.h"
+#include "lattice/base_fans.h"
+#include "lattice/lane_frames.h"
+#include "lattice/lattice_points.h"
+#include "lattice/level_details.h"
+#include "lattice/triangle_lattice.h"
 
 namespace zerotree::surface {
 

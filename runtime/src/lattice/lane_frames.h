@@ -4,9 +4,9 @@
 
 #include <cstddef>
 
+#include "lattice/lanes.h"
 #include "surface/detail_weights.h"
 #include "surface/edge_frames.h"
-#include "surface/lanes.h"
 
 namespace zerotree::surface {
 

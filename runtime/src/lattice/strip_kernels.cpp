@@ -1,6 +1,6 @@
-#include "surface/strip_kernels.h"
+#include "lattice/strip_kernels.h"
 
-#include "surface/loop_weights.h"
+#include "lattice/loop_weights.h"
 
 namespace zerotree::surface {
 

@@ -7,7 +7,7 @@
 #include <memory_resource>
 
 #include "bitstream/raw_memory.h"
-#include "surface/lanes.h"
+#include "lattice/lanes.h"
 
 namespace zerotree::surface {
 

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "bitstream/stream_decoder.h"
-#include "surface/lattice_mesh.h"
-#include "surface/level_schedule.h"
+#include "lattice/lattice_mesh.h"
+#include "lattice/level_schedule.h"
+#include "progressive/mesh_wide_surface.h"
 #include "surface/limit_output.h"
-#include "surface/mesh_wide_surface.h"
 
 namespace zerotree::surface {
 

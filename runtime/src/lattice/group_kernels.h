@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "surface/lanes.h"
-#include "surface/level_details.h"
-#include "surface/triangle_lattice.h"
+#include "lattice/lanes.h"
+#include "lattice/level_details.h"
+#include "lattice/triangle_lattice.h"
 
 namespace zerotree::surface {
 

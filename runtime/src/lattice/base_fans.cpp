@@ -1,4 +1,4 @@
-#include "surface/base_fans.h"
+#include "lattice/base_fans.h"
 
 #include "surface/fan_masks.h"
 #include "surface/local_filter.h"
