@@ -175,8 +175,9 @@ ZT_API zt_result zt_reconstruct(zt_decoder* decoder, int32_t level, void* positi
 
 /* As zt_reconstruct, but stops soon after `budget_us` microseconds. ZT_UNFINISHED: call again with
  * the same arguments to go on; until ZT_OK the buffers hold some of both, the new and what was
- * there. Bytes may be fed in between: the surface is then that of all bytes. Runs on the calling
- * thread alone. */
+ * there. Bytes may be fed in between: the surface is then that of all bytes. Every call brings the
+ * work on, even with a budget of 0. Runs on the calling thread alone. A stream of the quadrature
+ * mirror transform knows no budget. */
 ZT_API zt_result zt_reconstruct_for(zt_decoder* decoder, int32_t level, void* positions,
                                     size_t position_stride, void* normals, size_t normal_stride,
                                     uint32_t vertex_capacity, uint32_t budget_us);

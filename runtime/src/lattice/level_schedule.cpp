@@ -88,9 +88,10 @@ bool LevelSchedule::run(std::span<const SynthesisPass> passes, int level, const 
       run_at_once(pass, level, units, output);
       continue;
     }
-    for (; place.unit < units; ++place.unit) {
+    while (place.unit < units) {
+      synthesis_.run(pass, level, place.unit++, 0, output);
+      // After a unit, not before: whatever the deadline, each call brings the work on.
       if (has_passed(deadline)) return false;
-      synthesis_.run(pass, level, place.unit, 0, output);
     }
   }
   return true;
