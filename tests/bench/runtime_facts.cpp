@@ -6,7 +6,7 @@ namespace zerotree::bench {
 namespace {
 
 constexpr std::uint32_t kBudget = 1000;  // microseconds a call
-constexpr int kPasses = 7;
+constexpr int kPasses = 5;
 constexpr std::size_t kPiece = 1024;
 
 std::uint64_t allocations_so_far(const RecyclingAllocator& allocator) {
