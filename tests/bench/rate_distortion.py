@@ -24,7 +24,8 @@ UNIT = 1e-4
 def run(*command):
     done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
     if done.returncode != 0:
-        sys.exit(f"rate_distortion: {' '.join(map(str, command))}\n{done.stderr or done.stdout}")
+        sys.exit(f"{Path(sys.argv[0]).stem}: {' '.join(map(str, command))}\n"
+                 f"{done.stderr or done.stdout}")
     return done.stdout
 
 
