@@ -21,6 +21,7 @@ struct DecodeArguments {
   std::optional<std::uint64_t> bytes;
   std::string error;
   std::optional<int> level;
+  bool balanced = false;
 };
 
 // The shortest prefix of the file's own table whose error is at most `target`.
@@ -47,7 +48,8 @@ void run_decode(const DecodeArguments& arguments) {
     bytes = bytes_for_error(file, parse_distance(arguments.error, "--error"));
   decode::PrefixSurface prefix(file);
   prefix.advance_to(bytes);
-  const exporter::Surface surface = prefix.surface(arguments.level);
+  const exporter::Surface surface =
+      prefix.surface(arguments.level, arguments.balanced ? surface::kBalanced : 0.0f);
   exporter::write_file_atomically(
       arguments.output, exporter::mesh_bytes(surface, arguments.output.extension().string()));
   std::printf("%s: %llu of %llu bytes -> %zu vertices, %zu triangles\n",
@@ -72,6 +74,9 @@ void add_decode(CLI::App& app, int& exit_code) {
   command->add_option("--error", arguments->error, "Use the shortest prefix of at most this error")
       ->excludes(bytes);
   command->add_option("--level", arguments->level, "Sampling density of the output [auto]");
+  command->add_flag("--balanced", arguments->balanced,
+                    "Vertices a little off the smooth surface, so that its triangles are as much "
+                    "outside as inside: a third less error at coarse levels");
   command->callback([arguments, &exit_code] {
     run_decode(*arguments);
     exit_code = 0;

@@ -68,7 +68,7 @@ int PrefixSurface::automatic_level() {
   return std::min(surface_.levels(), std::max(smooth, decoder().detailed_levels()));
 }
 
-exporter::Surface PrefixSurface::surface(std::optional<int> asked) {
+exporter::Surface PrefixSurface::surface(std::optional<int> asked, float outward) {
   require_surface();
   const int level = asked.value_or(automatic_level());
   if (level < 0 || level > surface_.levels())
@@ -80,7 +80,8 @@ exporter::Surface PrefixSurface::surface(std::optional<int> asked) {
   result.normals.resize(result.positions.size());
   result.triangles.resize(surface_.counts(level).triangles);
   const surface::LimitOutput output{{result.positions.data(), sizeof(Eigen::Vector3f)},
-                                    {result.normals.data(), sizeof(Eigen::Vector3f)}};
+                                    {result.normals.data(), sizeof(Eigen::Vector3f)},
+                                    outward};
   if (surface_.write_limits(level, output) == surface::SurfaceOutcome::broken ||
       !surface_.write_triangles(level, result.triangles.data()->data()))
     refuse_broken();

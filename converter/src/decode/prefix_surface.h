@@ -34,7 +34,8 @@ class PrefixSurface {
   /// `automatic_level` if empty. Without a header, of an external base, it is the smooth surface of
   /// the base. Throws Error(unreadable_input) unless `has_surface`, and Error(usage) for a level
   /// out of range.
-  exporter::Surface surface(std::optional<int> level = {});
+  /// `outward` is that of surface::LimitOutput.
+  exporter::Surface surface(std::optional<int> level = {}, float outward = 0.0f);
 
  private:
   void require_surface() const;

@@ -82,6 +82,13 @@ typedef struct zt_jobs {
   uint32_t thread_count;
 } zt_jobs;
 
+/* Where the vertices of a level lie. */
+typedef enum zt_sampling {
+  ZT_SAMPLE_LIMIT = 0,   /* on the smooth surface: a vertex stays where it is at finer levels */
+  ZT_SAMPLE_BALANCED = 1 /* a little outside where the surface is convex, so that the triangles are
+                            about as much outside as inside: a third less error at coarse levels */
+} zt_sampling;
+
 /* How a decoder works and what it is willing to decode; a stream beyond the limits is refused
  * before memory is taken. Zero and null stand for the defaults, so this is all there is to it:
  *   zt_options options = {.struct_size = sizeof options};   options.max_vertices = 1000000; */
@@ -90,7 +97,7 @@ typedef struct zt_options {
   uint64_t max_vertices;  /* of the finest level; default 2^27 */
   uint64_t max_memory;    /* bytes held for coefficients and their coding state; default 2 GiB */
   int32_t max_levels;     /* default 14 */
-  int32_t reserved;       /* 0 */
+  int32_t sampling;       /* a zt_sampling; default ZT_SAMPLE_LIMIT */
   zt_allocator allocator; /* default: operator new */
   zt_jobs jobs;           /* default: everything runs on the calling thread */
 } zt_options;
@@ -162,8 +169,8 @@ ZT_API void zt_get_info(const zt_decoder* decoder, zt_info* info, size_t info_si
 ZT_API uint32_t zt_vertex_count(const zt_decoder* decoder, int32_t level);
 ZT_API uint32_t zt_triangle_count(const zt_decoder* decoder, int32_t level);
 
-/* Limit positions and unit limit normals of the surface that the bytes so far stand for, sampled at
- * the vertices of `level`. Each is three floats a vertex, `stride` bytes apart (12 if packed; 0
+/* Positions (zt_sampling) and unit limit normals of the surface that the bytes so far stand for,
+ * at the vertices of `level`. Each is three floats a vertex, `stride` bytes apart (12 if packed; 0
  * counts as 12; no alignment is needed); either pointer may be null. `vertex_capacity` is the
  * number of vertices both buffers have room for, at least zt_vertex_count. Vertices of a level are
  * the first ones of each finer level. Every vertex is written; only the levels that have changed

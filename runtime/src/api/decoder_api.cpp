@@ -38,14 +38,17 @@ SurfaceResources resources_of(const zt_options& options, DecoderMemory& memory) 
 struct zt_decoder {
   zt_decoder(const zt_options& options, const Limits& limits)
       : allocator(options.allocator),
+        outward(options.sampling == ZT_SAMPLE_BALANCED ? zerotree::surface::kBalanced : 0.0f),
         memory(options.allocator),
         surface(limits, resources_of(options, memory)) {}
   zt_decoder(const zt_options& options, const Limits& limits, ExternalBase base)
       : allocator(options.allocator),
+        outward(options.sampling == ZT_SAMPLE_BALANCED ? zerotree::surface::kBalanced : 0.0f),
         memory(options.allocator),
         surface(std::move(base), limits, resources_of(options, memory)) {}
 
   zt_allocator allocator;
+  float outward;
   DecoderMemory memory;
   zerotree::surface::ProgressiveSurface surface;
   /// Said instead of the stream's own reason when memory ran out while feeding.
@@ -66,6 +69,7 @@ bool are_usable(const zt_options* options) {
   if (!options) return true;
   const zt_options all = complete(options);
   return options->struct_size >= sizeof options->struct_size &&
+         (all.sampling == ZT_SAMPLE_LIMIT || all.sampling == ZT_SAMPLE_BALANCED) &&
          !all.allocator.allocate == !all.allocator.release;
 }
 
@@ -188,7 +192,9 @@ zt_result reconstruct(zt_decoder* decoder, std::int32_t level, const VertexBuffe
   if (possible != ZT_OK) return possible;
   if (buffers.capacity < zt_vertex_count(decoder, level)) return ZT_INVALID_ARGUMENT;
   return guarded([&] {
-    switch (decoder->surface.write_limits(level, buffers.output, deadline)) {
+    LimitOutput output = buffers.output;
+    output.outward = decoder->outward;
+    switch (decoder->surface.write_limits(level, output, deadline)) {
       case SurfaceOutcome::done:
         return ZT_OK;
       case SurfaceOutcome::unfinished:
@@ -298,16 +304,16 @@ uint32_t zt_triangle_count(const zt_decoder* decoder, int32_t level) {
 zt_result zt_reconstruct(zt_decoder* decoder, int32_t level, void* positions,
                          size_t position_stride, void* normals, size_t normal_stride,
                          uint32_t vertex_capacity) {
-  const LimitOutput output{{positions, packed_unless(position_stride)},
-                           {normals, packed_unless(normal_stride)}};
+  const LimitOutput output{
+      {positions, packed_unless(position_stride)}, {normals, packed_unless(normal_stride)}, 0.0f};
   return reconstruct(decoder, level, {output, vertex_capacity}, {});
 }
 
 zt_result zt_reconstruct_for(zt_decoder* decoder, int32_t level, void* positions,
                              size_t position_stride, void* normals, size_t normal_stride,
                              uint32_t vertex_capacity, uint32_t budget_us) {
-  const LimitOutput output{{positions, packed_unless(position_stride)},
-                           {normals, packed_unless(normal_stride)}};
+  const LimitOutput output{
+      {positions, packed_unless(position_stride)}, {normals, packed_unless(normal_stride)}, 0.0f};
   return reconstruct(decoder, level, {output, vertex_capacity}, deadline_in(budget_us));
 }
 

@@ -14,11 +14,18 @@ namespace {
 
 using Ring = std::array<std::uint32_t, 7>;
 
-LanePoint limit_position(const LanePoint* points, const Ring& ring) {
+struct PositionWeights {
+  explicit PositionWeights(float outward)
+      : centre(outward + (1.0f - outward) * kLimitCentre), ring((1.0f - outward) * kLimitRing) {}
+  float centre, ring;
+};
+
+LanePoint limit_position(const LanePoint* points, const Ring& ring,
+                         const PositionWeights& weights) {
   const LanePoint around = (points[ring[1]] + points[ring[2]]) +
                            (points[ring[3]] + points[ring[4]]) +
                            (points[ring[5]] + points[ring[6]]);
-  return kLimitCentre * points[ring[0]] + kLimitRing * around;
+  return weights.centre * points[ring[0]] + weights.ring * around;
 }
 
 LaneTangents limit_tangents(const LanePoint* points, const Ring& ring) {
@@ -47,6 +54,7 @@ void write_limits_inside(const LatticeMesh& mesh, int level, std::size_t group,
   const LatticeLevel& lattice = mesh.lattice(level);
   const std::size_t lanes = mesh.lanes_used(group);
   std::span<const Ring> rings = lattice.rings;
+  const PositionWeights weights(output.outward);
   Block positions, normals;
   for (const PointRun& run : lattice.runs) {
     std::array<std::size_t, kLanes> first_vertex{};
@@ -55,7 +63,8 @@ void write_limits_inside(const LatticeMesh& mesh, int level, std::size_t group,
     for (std::size_t done = 0; done < run.count; done += kBlock) {
       const std::size_t count = std::min(kBlock, run.count - done);
       if (output.positions.data)
-        for (std::size_t i = 0; i < count; ++i) put(limit_position(points, rings[i]), i, positions);
+        for (std::size_t i = 0; i < count; ++i)
+          put(limit_position(points, rings[i], weights), i, positions);
       if (output.normals.data)
         for (std::size_t i = 0; i < count; ++i)
           put(unit_normals(limit_tangents(points, rings[i]), lanes), i, normals);

@@ -252,7 +252,10 @@ void LatticeSynthesis::limit_strip(int level, std::size_t number, Scratch& scrat
     }
   };
   for_lanes(1, static_cast<std::size_t>(lattice.segments), [&](std::size_t i, std::size_t lanes) {
-    if (output.positions.data) write(limits_on_strip(strip, rows, i), i, lanes, output.positions);
+    const float outward = output.outward;
+    if (output.positions.data)
+      write((1.0f - outward) * limits_on_strip(strip, rows, i) + outward * rows.row.lanes(i), i,
+            lanes, output.positions);
     if (output.normals.data)
       write(normals_on_strip(strip, rows, i, lanes), i, lanes, output.normals);
   });
@@ -335,6 +338,7 @@ void LatticeSynthesis::limit_corner(int level, std::size_t vertex, const LimitOu
     tangent1 += fan.weights[k].tangent1 * (point - centre);
     tangent2 += fan.weights[k].tangent2 * (point - centre);
   }
+  position = (1.0f - output.outward) * position + output.outward * centre;
   if (output.positions.data) output.positions.write(vertex, &position);
   if (!output.normals.data) return;
   const PointF normal = unit_normal(tangent1, tangent2);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -172,14 +173,34 @@ bool ProgressiveSurface::mesh_wide_points(int level, Positions& points) {
   return true;
 }
 
+namespace {
+
+/// Moves limit positions towards their control points.
+void move_outward(const Positions& control_points, const LimitOutput& output) {
+  for (std::size_t vertex = 0; output.positions.data && 3 * vertex < control_points.size();
+       ++vertex) {
+    std::array<float, 3> position;
+    std::memcpy(position.data(),
+                static_cast<const char*>(output.positions.data) + vertex * output.positions.stride,
+                sizeof position);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      position[axis] += output.outward * (control_points[3 * vertex + axis] - position[axis]);
+    output.positions.write(vertex, position.data());
+  }
+}
+
+}  // namespace
+
 SurfaceOutcome ProgressiveSurface::write_limits(int level, const LimitOutput& output,
                                                 const Deadline& deadline) {
   if (!mesh()) return SurfaceOutcome::broken;
   if (transform() == WaveletTransform::loop_quadrature_mirror) {
     Positions points;
     if (!mesh_wide_points(level, points)) return SurfaceOutcome::broken;
-    limit_surface(mesh_wide_.hierarchy(base(), transform(), level).level(level), points,
-                  output.positions, output.normals);
+    const SubdivisionLevel& topology =
+        mesh_wide_.hierarchy(base(), transform(), level).level(level);
+    limit_surface(topology, points, output.positions, output.normals);
+    if (output.outward != 0.0f) move_outward(points, output);
     return SurfaceOutcome::done;
   }
   return schedule_->write_limits(level, source(), output, deadline) ? SurfaceOutcome::done

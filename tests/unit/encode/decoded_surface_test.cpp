@@ -161,6 +161,26 @@ TEST_P(DecodedSurface, IsTheEncodedOneWithinTheSteps) {
   }
 }
 
+// Between limit and control points, along creases and at corners too.
+TEST_P(DecodedSurface, CanBeSampledOutsideTheLimit) {
+  constexpr float kOutward = 0.25f;
+  for (const test::Shape& shape : test::base_shapes()) {
+    const Encoded sample = encoded(shape, GetParam());
+    surface::ProgressiveSurface decoded;
+    ASSERT_EQ(decoded.feed(sample.stream.bytes), bitstream::DecodeStatus::done);
+    const SubdivisionHierarchy hierarchy(decoded.base(), kLevels, GetParam());
+    const Positions points =
+        surface::reconstruct(hierarchy, sample.stream.base_positions,
+                             decoded.decoder().coefficients(), steps_of(decoded), kLevels);
+    Positions expected = limit_of(hierarchy.level(kLevels), points), found(expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      expected[i] += kOutward * (points[i] - expected[i]);
+    ASSERT_EQ(decoded.write_limits(kLevels, {{found.data()}, {}, kOutward}),
+              surface::SurfaceOutcome::done);
+    EXPECT_LT(largest_difference(found, expected), 1e-5) << shape.name;
+  }
+}
+
 TEST(DecodedSurfaceOfAnUnknownTransform, IsRefused) {
   encode::StreamContent content =
       test::empty_content(test::canonical_base(test::base_shapes()[0]), 2, true, 1);
