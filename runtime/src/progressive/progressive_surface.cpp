@@ -105,19 +105,22 @@ LatticeMesh* ProgressiveSurface::mesh() {
   schedule_.reset();
   mesh_.reset();
   const bool has_tags = decoder_.base_ready();
+  std::unique_ptr<LatticeMesh> made;
   try {
-    mesh_ = std::make_unique<LatticeMesh>(
-        base(), has_tags ? decoder_.base_edges() : external_edges_, resources_.memory);
+    made = std::make_unique<LatticeMesh>(base(), has_tags ? decoder_.base_edges() : external_edges_,
+                                         resources_.memory);
   } catch (const std::invalid_argument& error) {
     fail(error.what());
     return nullptr;
   }
-  mesh_has_tags_ = has_tags;
-  schedule_ = std::make_unique<LevelSchedule>(*mesh_, resources_.jobs, resources_.memory);
   positions_.resize(3 * std::size_t{base().vertex_count});
   if (external_)
     std::copy(external_->positions.begin(), external_->positions.end(), positions_.begin());
   source_ = {};
+  schedule_ = std::make_unique<LevelSchedule>(*made, resources_.jobs, resources_.memory);
+  // Last: whatever runs out of memory, there is a mesh with its schedule or neither.
+  mesh_ = std::move(made);
+  mesh_has_tags_ = has_tags;
   return mesh_.get();
 }
 
