@@ -41,6 +41,7 @@ void LevelSchedule::invalidate(int level) {
 void LevelSchedule::reserve(int level) {
   if (level <= synthesis_.levels()) return;
   mesh_.deepen(level);
+  level_place_ = {};  // what the level being made has of lifts is lost
   synthesis_.reserve(level, jobs_.run ? jobs_.threads : 1);
 }
 
