@@ -188,8 +188,8 @@ ZT_API zt_result zt_reconstruct_for(zt_decoder* decoder, int32_t level, void* po
 ZT_API zt_result zt_get_indices(zt_decoder* decoder, int32_t level, void* indices,
                                 uint32_t index_size, uint32_t triangle_capacity);
 
-/* An axis-aligned box that contains the surface that the bytes so far stand for. Costs less than
- * reconstructing level 4. */
+/* An axis-aligned box that contains the surface that the bytes so far stand for, at any level.
+ * Costs less than reconstructing level 4. */
 ZT_API zt_result zt_get_bounds(zt_decoder* decoder, float low[3], float high[3]);
 
 /* Tells the decoder what its file says of errors: rows of ascending length. They are copied. */
@@ -201,9 +201,10 @@ ZT_API zt_result zt_set_prefix_errors(zt_decoder* decoder, const zt_prefix_error
 ZT_API uint64_t zt_bytes_for_error(const zt_decoder* decoder, float max_error);
 
 /* How far the triangles of `level` are from those of the finest level at most, for the bytes so
- * far: no more than this pops when a viewer switches between them. All levels are samples of one
- * limit surface, so this is only the height of chords. Measured on the surface up to level 5, from
- * there on a quarter per level. Costs about as much as reconstructing level 5 after new bytes. */
+ * far: no more than this pops when a viewer switches between them. Levels are samples of a smooth
+ * surface, so this is little more than the height of chords. Measured on the surface up to level 5,
+ * from there on a quarter per level. Costs, after new bytes, about one and a half times what
+ * reconstructing level 5 costs. */
 ZT_API zt_result zt_get_level_error(zt_decoder* decoder, int32_t level, float* error);
 
 /* The coarsest level with a zt_get_level_error of at most `max_error`; the finest if none is. For
