@@ -65,7 +65,8 @@ typedef enum zt_result {
  * or null; `release` gets the size that was asked for. Both are given or neither. They are called
  * from within the functions here that take the decoder, by the thread that called it. Everything
  * that grows with the levels comes from here; lists of the base mesh, and what OpenSubdiv needs
- * while it looks at the base, come from operator new. */
+ * while it looks at the base, come from operator new; if that fails in OpenSubdiv, what it had taken
+ * is lost. */
 typedef struct zt_allocator {
   void* (*allocate)(void* user, size_t size);
   void (*release)(void* user, void* memory, size_t size);
@@ -139,7 +140,8 @@ ZT_API void zt_free(zt_decoder* decoder);
 
 /* Takes the next `size` bytes of the stream, in pieces of any size (0 is allowed), and decodes what
  * they allow: about 0.02 microseconds a decision. Bytes after the end and after an error are
- * ignored. Memory for all details is taken once, when the base is known; later calls take none. */
+ * ignored. Memory for all details is taken once, when the base is known; later calls take none, but
+ * for a stream whose details of the two finest levels have more than 14 bit planes. */
 ZT_API zt_status zt_feed(zt_decoder* decoder, const void* bytes, size_t size);
 
 /* As zt_feed, but stops soon after `budget_us` microseconds: `*taken` of the bytes are decoded, the
@@ -163,12 +165,13 @@ ZT_API uint32_t zt_vertex_count(const zt_decoder* decoder, int32_t level);
 ZT_API uint32_t zt_triangle_count(const zt_decoder* decoder, int32_t level);
 
 /* Limit positions and unit limit normals of the surface that the bytes so far stand for, sampled at
- * the vertices of `level`. Each is three floats a vertex, `stride` bytes apart (12 if packed; 0
- * counts as 12; no alignment is needed); either pointer may be null. `vertex_capacity` is the
- * number of vertices both buffers have room for, at least zt_vertex_count. Vertices of a level are
- * the first ones of each finer level. Every vertex is written; only the levels that have changed
- * since the last call are synthesised anew. The first call at a level takes memory, which is kept
- * until the decoder is freed; later ones at this level take none. */
+ * the vertices of `level`; a level lacks what the details of finer ones add. Each is three floats a
+ * vertex, `stride` bytes apart (12 if packed; 0 counts as 12; no alignment is needed); either
+ * pointer may be null. `vertex_capacity` is the number of vertices both buffers have room for, at
+ * least zt_vertex_count. Vertices of a level are the first ones of each finer level. Every vertex
+ * is written; only the levels that have changed since the last call are synthesised anew. The first
+ * call at a level takes memory, which is kept until the decoder is freed; later ones at this level
+ * take none, but for the first after sharp tags of a base that the caller gave have come. */
 ZT_API zt_result zt_reconstruct(zt_decoder* decoder, int32_t level, void* positions,
                                 size_t position_stride, void* normals, size_t normal_stride,
                                 uint32_t vertex_capacity);

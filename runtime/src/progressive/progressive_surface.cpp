@@ -101,6 +101,9 @@ Dequantisation ProgressiveSurface::dequantisation() const {
 }
 
 LatticeMesh* ProgressiveSurface::mesh() {
+  if (mesh_ && decoder_.base_ready() && base().crease_edges.empty() &&
+      base().corner_vertices.empty())
+    mesh_has_tags_ = true;  // there are none: it is the same mesh
   if (mesh_ && mesh_has_tags_ == decoder_.base_ready()) return mesh_.get();
   schedule_.reset();
   mesh_.reset();
