@@ -65,7 +65,8 @@ typedef enum zt_result {
  * or null; `release` gets the size that was asked for. Both are given or neither. They are called
  * from within the functions here that take the decoder, by the thread that called it. Everything
  * that grows with the levels comes from here; lists of the base mesh, and what OpenSubdiv needs
- * while it looks at the base, come from operator new. */
+ * while it looks at the base, come from operator new; if that fails in OpenSubdiv, what it had taken
+ * is lost. */
 typedef struct zt_allocator {
   void* (*allocate)(void* user, size_t size);
   void (*release)(void* user, void* memory, size_t size);
@@ -146,7 +147,8 @@ ZT_API void zt_free(zt_decoder* decoder);
 
 /* Takes the next `size` bytes of the stream, in pieces of any size (0 is allowed), and decodes what
  * they allow: about 0.02 microseconds a decision. Bytes after the end and after an error are
- * ignored. Memory for all details is taken once, when the base is known; later calls take none. */
+ * ignored. Memory for all details is taken once, when the base is known; later calls take none, but
+ * for a stream whose details of the two finest levels have more than 14 bit planes. */
 ZT_API zt_status zt_feed(zt_decoder* decoder, const void* bytes, size_t size);
 
 /* As zt_feed, but stops soon after `budget_us` microseconds: `*taken` of the bytes are decoded, the
@@ -169,13 +171,14 @@ ZT_API void zt_get_info(const zt_decoder* decoder, zt_info* info, size_t info_si
 ZT_API uint32_t zt_vertex_count(const zt_decoder* decoder, int32_t level);
 ZT_API uint32_t zt_triangle_count(const zt_decoder* decoder, int32_t level);
 
-/* Positions (zt_sampling) and unit limit normals of the surface that the bytes so far stand for,
- * at the vertices of `level`. Each is three floats a vertex, `stride` bytes apart (12 if packed; 0
- * counts as 12; no alignment is needed); either pointer may be null. `vertex_capacity` is the
- * number of vertices both buffers have room for, at least zt_vertex_count. Vertices of a level are
- * the first ones of each finer level. Every vertex is written; only the levels that have changed
- * since the last call are synthesised anew. The first call at a level takes memory, which is kept
- * until the decoder is freed; later ones at this level take none. */
+/* Positions (zt_sampling) and unit limit normals of the surface that the bytes so far stand for, at
+ * the vertices of `level`; a level lacks what the details of finer ones add. Each is three floats a
+ * vertex, `stride` bytes apart (12 if packed; 0 counts as 12; no alignment is needed); either
+ * pointer may be null. `vertex_capacity` is the number of vertices both buffers have room for, at
+ * least zt_vertex_count. Vertices of a level are the first ones of each finer level. Every vertex
+ * is written; only the levels that have changed since the last call are synthesised anew. The first
+ * call at a level takes memory, which is kept until the decoder is freed; later ones at this level
+ * take none, but for the first after sharp tags of a base that the caller gave have come. */
 ZT_API zt_result zt_reconstruct(zt_decoder* decoder, int32_t level, void* positions,
                                 size_t position_stride, void* normals, size_t normal_stride,
                                 uint32_t vertex_capacity);
@@ -195,8 +198,8 @@ ZT_API zt_result zt_reconstruct_for(zt_decoder* decoder, int32_t level, void* po
 ZT_API zt_result zt_get_indices(zt_decoder* decoder, int32_t level, void* indices,
                                 uint32_t index_size, uint32_t triangle_capacity);
 
-/* An axis-aligned box that contains the surface that the bytes so far stand for. Costs less than
- * reconstructing level 4. */
+/* An axis-aligned box that contains the surface that the bytes so far stand for, at any level.
+ * Costs less than reconstructing level 4. */
 ZT_API zt_result zt_get_bounds(zt_decoder* decoder, float low[3], float high[3]);
 
 /* Tells the decoder what its file says of errors: rows of ascending length. They are copied. */
@@ -208,9 +211,10 @@ ZT_API zt_result zt_set_prefix_errors(zt_decoder* decoder, const zt_prefix_error
 ZT_API uint64_t zt_bytes_for_error(const zt_decoder* decoder, float max_error);
 
 /* How far the triangles of `level` are from those of the finest level at most, for the bytes so
- * far: no more than this pops when a viewer switches between them. All levels are samples of one
- * limit surface, so this is only the height of chords. Measured on the surface up to level 5, from
- * there on a quarter per level. Costs about as much as reconstructing level 5 after new bytes. */
+ * far: no more than this pops when a viewer switches between them. Levels are samples of a smooth
+ * surface, so this is little more than the height of chords. Measured on the surface up to level 5,
+ * from there on a quarter per level. Costs, after new bytes, about one and a half times what
+ * reconstructing level 5 costs. */
 ZT_API zt_result zt_get_level_error(zt_decoder* decoder, int32_t level, float* error);
 
 /* The coarsest level with a zt_get_level_error of at most `max_error`; the finest if none is. For

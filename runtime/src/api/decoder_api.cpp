@@ -102,15 +102,19 @@ std::size_t packed_unless(std::size_t stride) {
   return stride == 0 ? kPackedStride : stride;
 }
 
+bool is_ready(const zt_decoder& decoder) {
+  return !decoder.is_out_of_memory && decoder.surface.is_ready();
+}
+
 bool has_level(const zt_decoder& decoder, std::int32_t level) {
-  return decoder.surface.is_ready() && level >= 0 && level <= decoder.surface.levels();
+  return is_ready(decoder) && level >= 0 && level <= decoder.surface.levels();
 }
 
 /// Whether a request for `level` can be met at all.
 zt_result check_request(const zt_decoder* decoder, std::int32_t level) {
   if (!decoder) return ZT_INVALID_ARGUMENT;
   if (zt_get_status(decoder) == ZT_BROKEN) return ZT_BROKEN_STREAM;
-  if (!decoder->surface.is_ready()) return ZT_NOT_READY;
+  if (!is_ready(*decoder)) return ZT_NOT_READY;
   return has_level(*decoder, level) ? ZT_OK : ZT_INVALID_ARGUMENT;
 }
 
@@ -168,7 +172,7 @@ zt_info info_of(const zt_decoder* decoder) {
     info.base_vertex_count = stream.header().vertex_count;
     info.base_triangle_count = stream.header().face_count;
   }
-  if (!decoder->surface.is_ready()) return info;
+  if (!is_ready(*decoder)) return info;
   info.base_ready = 1;
   info.levels = decoder->surface.levels();
   info.detailed_levels = stream.detailed_levels();

@@ -30,9 +30,9 @@ LatticeMesh::LatticeMesh(const bitstream::BaseTopology& base,
 
 void LatticeMesh::deepen(int levels) {
   if (levels <= this->levels()) return;
-  lattices_ = triangle_lattices(levels, memory_);
   for (int level = static_cast<int>(strip_points_.size()); level <= levels; ++level)
     strip_points_.push_back(strip_points(level));
+  lattices_ = triangle_lattices(levels, memory_);  // last: they tell what is known
 }
 
 std::size_t LatticeMesh::group_count() const {

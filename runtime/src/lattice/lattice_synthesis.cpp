@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <utility>
 
 #include "bitstream/edge_image.h"
 #include "lattice/group_kernels.h"
@@ -55,17 +57,22 @@ LatticeSynthesis::LatticeSynthesis(const LatticeMesh& mesh, std::pmr::memory_res
     : mesh_(mesh), memory_(memory), strip_moves_(memory) {}
 
 void LatticeSynthesis::reserve(int level, std::size_t workers) {
+  if (level <= levels()) return;
+  const LatticeLevel& finest = mesh_.lattice(level);
+  std::vector<LatticePoints> points;
   for (int number = levels() + 1; number <= level; ++number)
-    points_.emplace_back(mesh_.triangle_count(), mesh_.lattice(number).point_count, memory_);
-  const LatticeLevel& finest = mesh_.lattice(levels());
+    points.emplace_back(mesh_.triangle_count(), mesh_.lattice(number).point_count, memory_);
+  points_.reserve(points_.size() + points.size());
   while (scratch_.size() < workers) scratch_.emplace_back(memory_);
   for (Scratch& scratch : scratch_) scratch.rows.resize(StripRows::floats_needed(finest));
-  if (levels() == 0) return;
-  const LatticeLevel& last = mesh_.lattice(levels() - 1);
-  lifts_ = {};  // before the next take their memory
-  lifts_ = LatticePoints(mesh_.triangle_count(), last.point_count, memory_);
-  strip_moves_.resize(mesh_.fans().strips().size() * static_cast<std::size_t>(last.segments));
-  for (Scratch& scratch : scratch_) scratch.moves.resize(finest.point_count - last.point_count);
+  if (level > 0) {
+    const LatticeLevel& last = mesh_.lattice(level - 1);
+    strip_moves_.resize(mesh_.fans().strips().size() * static_cast<std::size_t>(last.segments));
+    for (Scratch& scratch : scratch_) scratch.moves.resize(finest.point_count - last.point_count);
+    lifts_ = LatticePoints(mesh_.triangle_count(), last.point_count, memory_);
+  }
+  // Only now: if memory ran out before, the levels there were can still be made.
+  std::move(points.begin(), points.end(), std::back_inserter(points_));
 }
 
 void LatticeSynthesis::set_base(std::span<const float> positions) {

@@ -46,7 +46,8 @@ class LatticeSynthesis {
   LatticeSynthesis(const LatticeMesh& mesh, std::pmr::memory_resource* memory);
 
   /// Takes memory for levels up to `level`, which the mesh knows, and for `workers` units at the
-  /// same time: nothing is allocated while passes run. `with_details`: for passes with details.
+  /// same time: nothing is allocated while passes run. Unless it throws, what a level that is being
+  /// made had in memory beside the points is lost.
   void reserve(int level, std::size_t workers);
   int levels() const { return static_cast<int>(points_.size()) - 1; }
 

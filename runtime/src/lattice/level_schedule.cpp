@@ -41,6 +41,7 @@ void LevelSchedule::invalidate(int level) {
 void LevelSchedule::reserve(int level) {
   if (level <= synthesis_.levels()) return;
   mesh_.deepen(level);
+  level_place_ = {};  // what the level being made has of lifts is lost
   synthesis_.reserve(level, jobs_.run ? jobs_.threads : 1);
 }
 
@@ -69,6 +70,9 @@ bool LevelSchedule::make_level(int level, const SurfaceSource& source, const Dea
 bool LevelSchedule::write_limits(int level, const SurfaceSource& source, const LimitOutput& output,
                                  const Deadline& deadline) {
   if (!make_level(level, source, deadline)) return false;
+  // A whole request writes every vertex, and leaves one in slices where it is.
+  Place whole;
+  if (!deadline) return run(kLimitPasses, level, output, deadline, whole);
   const LimitTarget target{level, output};
   if (limit_target_ != target) {
     limit_target_ = target;

@@ -18,26 +18,8 @@ std::int32_t largest(const Value* values, std::size_t count) {
   return most;
 }
 
-float distance_to_middle(const PointF& odd, const PointF& tail, const PointF& head) {
-  const PointF offset = odd - 0.5f * (tail + head);
-  return std::sqrt(offset.x * offset.x + offset.y * offset.y + offset.z * offset.z);
-}
-
-/// Raises the heights of all levels by the edges of one base triangle, whose points these are.
-void raise_heights(const LatticeMesh& mesh, std::span<const PointF> points,
-                   std::vector<float>& heights) {
-  for (std::size_t level = 0; level < heights.size(); ++level) {
-    const LatticeLevel& lattice = mesh.lattice(static_cast<int>(level));
-    const LatticeLevel& finer = mesh.lattice(static_cast<int>(level) + 1);
-    float& height = heights[level];
-    const auto raise = [&](std::uint32_t odd, std::uint32_t tail, std::uint32_t head) {
-      height = std::max(height, distance_to_middle(points[odd], points[tail], points[head]));
-    };
-    for (const auto& edges : lattice.edges)
-      for (const LatticeEdge& edge : edges) raise(edge.odd, edge.tail, edge.head);
-    for (const auto& side : finer.side_points)
-      for (std::size_t i = 1; i < side.size(); i += 2) raise(side[i], side[i - 1], side[i + 1]);
-  }
+float length(const PointF& p) {
+  return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
 }
 
 }  // namespace
@@ -56,19 +38,30 @@ float longest_move(const LevelDetails& details, std::size_t cells) {
   return static_cast<float>(std::sqrt(squared / kMeanAreaShare));
 }
 
-std::vector<float> chord_heights(const LatticeMesh& mesh, int level,
-                                 std::span<const float> positions) {
-  std::vector<float> heights(static_cast<std::size_t>(level), 0.0f);
-  std::vector<PointF> points(mesh.lattice(level).point_count);
+float longest_step(const LatticeMesh& mesh, int level, std::span<const float> coarse,
+                   std::span<const float> fine) {
+  const LatticeLevel& lattice = mesh.lattice(level);
+  const LatticeLevel& finer = mesh.lattice(level + 1);
+  const auto point = [](std::span<const float> positions, std::uint32_t vertex) {
+    const float* p = &positions[3 * std::size_t{vertex}];
+    return PointF{p[0], p[1], p[2]};
+  };
+  float longest = 0.0f;
+  for (std::uint32_t vertex = 0; 3 * std::size_t{vertex} < coarse.size(); ++vertex)
+    longest = std::max(longest, length(point(fine, vertex) - point(coarse, vertex)));
   for (std::size_t triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
-    const std::vector<std::uint32_t> vertices = mesh.vertices_of(level, triangle);
-    for (std::size_t point = 0; point < points.size(); ++point) {
-      const float* p = &positions[3 * std::size_t{vertices[point]}];
-      points[point] = {p[0], p[1], p[2]};
-    }
-    raise_heights(mesh, points, heights);
+    const std::vector<std::uint32_t> vertices = mesh.vertices_of(level + 1, triangle);
+    // Points keep their numbers at finer levels.
+    const auto include = [&](std::uint32_t odd, std::uint32_t tail, std::uint32_t head) {
+      const PointF ends = point(coarse, vertices[tail]) + point(coarse, vertices[head]);
+      longest = std::max(longest, length(point(fine, vertices[odd]) - 0.5f * ends));
+    };
+    for (const auto& edges : lattice.edges)
+      for (const LatticeEdge& edge : edges) include(edge.odd, edge.tail, edge.head);
+    for (const auto& side : finer.side_points)
+      for (std::size_t i = 1; i < side.size(); i += 2) include(side[i], side[i - 1], side[i + 1]);
   }
-  return heights;
+  return longest;
 }
 
 }  // namespace zerotree::surface

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "lattice/lattice_mesh.h"
 #include "lattice/lattice_points.h"
@@ -16,9 +15,10 @@ float longest_move(const LevelDetails& details, std::size_t cells);
 /// details dip and lift add up.
 inline constexpr float kReachOfMoves = 2.5f;
 
-/// Per level below the last of `mesh`: the longest distance between an odd vertex and the middle of
-/// its edge in the sampled surface; `positions` are x, y, z of each vertex of level `level`.
-std::vector<float> chord_heights(const LatticeMesh& mesh, int level,
-                                 std::span<const float> positions);
+/// How far the triangles of `level` are at most from those of the next, point by point: from even
+/// vertices to themselves, from odd ones to the middle of their edge. `coarse` and `fine` are x, y,
+/// z of each vertex of the two levels; the mesh knows both.
+float longest_step(const LatticeMesh& mesh, int level, std::span<const float> coarse,
+                   std::span<const float> fine);
 
 }  // namespace zerotree::surface

@@ -102,23 +102,29 @@ Dequantisation ProgressiveSurface::dequantisation() const {
 }
 
 LatticeMesh* ProgressiveSurface::mesh() {
+  if (mesh_ && decoder_.base_ready() && base().crease_edges.empty() &&
+      base().corner_vertices.empty())
+    mesh_has_tags_ = true;  // there are none: it is the same mesh
   if (mesh_ && mesh_has_tags_ == decoder_.base_ready()) return mesh_.get();
   schedule_.reset();
   mesh_.reset();
   const bool has_tags = decoder_.base_ready();
+  std::unique_ptr<LatticeMesh> made;
   try {
-    mesh_ = std::make_unique<LatticeMesh>(
-        base(), has_tags ? decoder_.base_edges() : external_edges_, resources_.memory);
+    made = std::make_unique<LatticeMesh>(base(), has_tags ? decoder_.base_edges() : external_edges_,
+                                         resources_.memory);
   } catch (const std::invalid_argument& error) {
     fail(error.what());
     return nullptr;
   }
-  mesh_has_tags_ = has_tags;
-  schedule_ = std::make_unique<LevelSchedule>(*mesh_, resources_.jobs, resources_.memory);
   positions_.resize(3 * std::size_t{base().vertex_count});
   if (external_)
     std::copy(external_->positions.begin(), external_->positions.end(), positions_.begin());
   source_ = {};
+  schedule_ = std::make_unique<LevelSchedule>(*made, resources_.jobs, resources_.memory);
+  // Last: whatever runs out of memory, there is a mesh with its schedule or neither.
+  mesh_ = std::move(made);
+  mesh_has_tags_ = has_tags;
   return mesh_.get();
 }
 
@@ -231,15 +237,24 @@ bool ProgressiveSurface::find_bounds(Box& box) {
       box.high[axis] = std::max(box.high[axis], point[axis]);
     }
   };
-  if (transform() == WaveletTransform::loop_quadrature_mirror) {
+  constexpr int kDeepest = 4;
+  const bool is_mesh_wide = transform() == WaveletTransform::loop_quadrature_mirror;
+  const int level =
+      is_mesh_wide ? levels() : std::min({levels(), decoder_.detailed_levels(), kDeepest});
+  // What coarser levels show, which lack details of this one.
+  std::vector<float> shown;
+  for (int coarser = 0; coarser < level; ++coarser) {
+    shown.resize(3 * counts(coarser).vertices);
+    if (write_limits(coarser, {{shown.data()}, {}}) == SurfaceOutcome::broken) return false;
+    for (std::size_t i = 0; i < shown.size(); i += 3) include(&shown[i]);
+  }
+  if (is_mesh_wide) {
     Positions points;
-    if (!mesh_wide_points(levels(), points)) return false;
+    if (!mesh_wide_points(level, points)) return false;
     for (std::size_t i = 0; i < points.size(); i += 3) include(&points[i]);
     return true;
   }
-  // The surface is in the hull of the control points of any level but for what finer details add.
-  constexpr int kDeepest = 4;
-  const int level = std::min({levels(), decoder_.detailed_levels(), kDeepest});
+  // Finer ones are in the hull of this one's control points but for what finer details add.
   schedule_->make_level(level, source(), {});
   for (std::size_t triangle = 0; triangle < mesh_->triangle_count(); ++triangle)
     for (std::uint32_t point = 0; point < mesh_->lattice(level).point_count; ++point) {
@@ -260,13 +275,19 @@ const std::vector<float>* ProgressiveSurface::level_errors() {
   note_changes();
   if (!level_errors_.empty()) return &level_errors_;
   const int measured = std::min(levels(), kMeasuredLevel);
-  std::vector<float> positions(3 * counts(measured).vertices);
-  if (write_limits(measured, {{positions.data()}, {}}) == SurfaceOutcome::broken) return nullptr;
-  std::vector<float> heights = chord_heights(*mesh_, measured, positions);
-  heights.resize(static_cast<std::size_t>(levels()) + 1, 0.0f);
+  mesh_->deepen(measured);  // mesh-wide points need no lattice
+  std::vector<float> heights(static_cast<std::size_t>(levels()) + 1, 0.0f);
+  std::vector<float> coarse, fine;
+  for (int level = 0; level <= measured; ++level) {
+    std::swap(coarse, fine);
+    fine.resize(3 * counts(level).vertices);
+    if (write_limits(level, {{fine.data()}, {}}) == SurfaceOutcome::broken) return nullptr;
+    if (level > 0)
+      heights[static_cast<std::size_t>(level) - 1] = longest_step(*mesh_, level - 1, coarse, fine);
+  }
   for (std::size_t level = static_cast<std::size_t>(measured); level + 1 < heights.size(); ++level)
     heights[level] = level == 0 ? 0.0f : 0.25f * heights[level - 1];
-  // A point of a level's triangle moves by no more than its odd vertices do, level after level.
+  // A point of a level's triangle moves by no more than the next one's vertices, level after level.
   for (std::size_t level = heights.size() - 1; level-- > 0;) heights[level] += heights[level + 1];
   level_errors_ = std::move(heights);
   return &level_errors_;

@@ -84,7 +84,7 @@ class ProgressiveSurface {
   template <class Index>
   bool write_triangles(int level, Index* indices);
 
-  /// A box that holds the surface. False: broken.
+  /// A box that holds the surface as each level shows it. False: broken.
   struct Box {
     std::array<float, 3> low, high;
   };

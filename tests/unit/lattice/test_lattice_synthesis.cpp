@@ -7,6 +7,7 @@
 #include <random>
 #include <tuple>
 
+#include "irregular_shapes.h"
 #include "lattice/level_schedule.h"
 #include "surface_shapes.h"
 
@@ -143,13 +144,17 @@ TEST_P(Lattices, HaveTheDetailedSurface) {
   expect_same(found, expected(set, steps));
 }
 
+constexpr auto kNameOfShapeAndLevels = [](const auto& test) {
+  return std::get<0>(test.param).name + "_" + std::to_string(std::get<1>(test.param));
+};
 INSTANTIATE_TEST_SUITE_P(Shapes, Lattices,
                          testing::Combine(testing::ValuesIn(base_shapes()),
                                           testing::Values(0, 1, 2, 4)),
-                         [](const auto& test) {
-                           return std::get<0>(test.param).name + "_" +
-                                  std::to_string(std::get<1>(test.param));
-                         });
+                         kNameOfShapeAndLevels);
+INSTANTIATE_TEST_SUITE_P(IrregularShapes, Lattices,
+                         testing::Combine(testing::ValuesIn(irregular_shapes()),
+                                          testing::Values(0, 1, 3)),
+                         kNameOfShapeAndLevels);
 
 }  // namespace
 }  // namespace zerotree::test
