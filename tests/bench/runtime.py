@@ -74,12 +74,12 @@ class OurErrors:
         self.tag = hashlib.sha256(stream.read_bytes()).hexdigest()[:12]
 
     def __call__(self, size, level):
-        kept = self.folder / f"ours_{self.tag}_{size}_{level}.json"
+        kept = self.folder / f"balanced_{self.tag}_{size}_{level}.json"
         if kept.exists():
             return json.loads(kept.read_text())
         decoded = kept.with_suffix(".ply")
         run(BIN / "zerotree", "decode", self.stream, "-o", decoded, "--bytes", size,
-            "--level", level)
+            "--level", level, "--balanced")
         error = error_of(self.original, decoded)
         decoded.unlink()
         kept.write_text(json.dumps(error))
@@ -97,7 +97,9 @@ def our_pairs(errors, levels, vertices, target):
     for level in reaching[:-3:-1]:
         size = smallest(lambda n: errors(n, level), target, int(vertices / 8 / target ** 1.2),
                         errors.size)
-        pairs.append((size, level, errors(size, level)))
+        # Errors are not quite monotone in the bytes; a level that the search misses is left out.
+        if size is not None:
+            pairs.append((size, level, errors(size, level)))
     return pairs
 
 
