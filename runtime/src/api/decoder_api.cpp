@@ -344,7 +344,7 @@ zt_result zt_get_bounds(zt_decoder* decoder, float low[3], float high[3]) {
   if (possible != ZT_OK) return possible;
   return guarded([&] {
     zerotree::surface::ProgressiveSurface::Box box;
-    if (!decoder->surface.find_bounds(box)) return ZT_BROKEN_STREAM;
+    if (!decoder->surface.find_bounds(box, decoder->outward)) return ZT_BROKEN_STREAM;
     std::copy(box.low.begin(), box.low.end(), low);
     std::copy(box.high.begin(), box.high.end(), high);
     return ZT_OK;
@@ -371,7 +371,7 @@ zt_result zt_get_level_error(zt_decoder* decoder, int32_t level, float* error) {
   const zt_result possible = check_request(decoder, level);
   if (possible != ZT_OK) return possible;
   return guarded([&] {
-    const std::vector<float>* errors = decoder->surface.level_errors();
+    const std::vector<float>* errors = decoder->surface.level_errors(decoder->outward);
     if (!errors) return ZT_BROKEN_STREAM;
     *error = (*errors)[static_cast<std::size_t>(level)];
     return ZT_OK;
@@ -383,7 +383,7 @@ zt_result zt_choose_level(zt_decoder* decoder, float max_error, int32_t* level) 
   const zt_result possible = check_request(decoder, 0);
   if (possible != ZT_OK) return possible;
   return guarded([&] {
-    const std::vector<float>* errors = decoder->surface.level_errors();
+    const std::vector<float>* errors = decoder->surface.level_errors(decoder->outward);
     if (!errors) return ZT_BROKEN_STREAM;
     // Errors fall from level to level, the finest one's is 0.
     const auto enough = std::find_if(errors->begin(), errors->end() - 1,

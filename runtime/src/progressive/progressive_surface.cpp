@@ -227,7 +227,7 @@ bool ProgressiveSurface::write_triangles(int level, Index* indices) {
 template bool ProgressiveSurface::write_triangles(int, std::uint16_t*);
 template bool ProgressiveSurface::write_triangles(int, std::uint32_t*);
 
-bool ProgressiveSurface::find_bounds(Box& box) {
+bool ProgressiveSurface::find_bounds(Box& box, float outward) {
   if (!mesh()) return false;
   box.low.fill(std::numeric_limits<float>::max());
   box.high.fill(std::numeric_limits<float>::lowest());
@@ -245,7 +245,8 @@ bool ProgressiveSurface::find_bounds(Box& box) {
   std::vector<float> shown;
   for (int coarser = 0; coarser < level; ++coarser) {
     shown.resize(3 * counts(coarser).vertices);
-    if (write_limits(coarser, {{shown.data()}, {}}) == SurfaceOutcome::broken) return false;
+    if (write_limits(coarser, {{shown.data()}, {}, outward}) == SurfaceOutcome::broken)
+      return false;
     for (std::size_t i = 0; i < shown.size(); i += 3) include(&shown[i]);
   }
   if (is_mesh_wide) {
@@ -270,10 +271,10 @@ bool ProgressiveSurface::find_bounds(Box& box) {
   return true;
 }
 
-const std::vector<float>* ProgressiveSurface::level_errors() {
+const std::vector<float>* ProgressiveSurface::level_errors(float outward) {
   if (!mesh()) return nullptr;
   note_changes();
-  if (!level_errors_.empty()) return &level_errors_;
+  if (!level_errors_.empty() && level_errors_outward_ == outward) return &level_errors_;
   const int measured = std::min(levels(), kMeasuredLevel);
   mesh_->deepen(measured);  // mesh-wide points need no lattice
   std::vector<float> heights(static_cast<std::size_t>(levels()) + 1, 0.0f);
@@ -281,7 +282,7 @@ const std::vector<float>* ProgressiveSurface::level_errors() {
   for (int level = 0; level <= measured; ++level) {
     std::swap(coarse, fine);
     fine.resize(3 * counts(level).vertices);
-    if (write_limits(level, {{fine.data()}, {}}) == SurfaceOutcome::broken) return nullptr;
+    if (write_limits(level, {{fine.data()}, {}, outward}) == SurfaceOutcome::broken) return nullptr;
     if (level > 0)
       heights[static_cast<std::size_t>(level) - 1] = longest_step(*mesh_, level - 1, coarse, fine);
   }
@@ -290,6 +291,7 @@ const std::vector<float>* ProgressiveSurface::level_errors() {
   // A point of a level's triangle moves by no more than the next one's vertices, level after level.
   for (std::size_t level = heights.size() - 1; level-- > 0;) heights[level] += heights[level + 1];
   level_errors_ = std::move(heights);
+  level_errors_outward_ = outward;
   return &level_errors_;
 }
 

@@ -88,11 +88,11 @@ class ProgressiveSurface {
   struct Box {
     std::array<float, 3> low, high;
   };
-  bool find_bounds(Box& box);
+  bool find_bounds(Box& box, float outward = 0.0f);
   /// Per level 0 .. levels(): how far its triangles are at most from those of the finest. Measured
   /// to kMeasuredLevel, from there on a quarter per level. Null: broken.
   static constexpr int kMeasuredLevel = 5;
-  const std::vector<float>* level_errors();
+  const std::vector<float>* level_errors(float outward = 0.0f);
 
  private:
   void fail(std::string why) { own_reason_ = std::move(why); }
@@ -118,6 +118,7 @@ class ProgressiveSurface {
   std::array<LevelDetails, bitstream::kMostLevels> details_;
   SurfaceSource source_;
   std::vector<float> level_errors_;
+  float level_errors_outward_ = 0.0f;  ///< what they were measured for
   MeshWideSurface mesh_wide_;
 };
 

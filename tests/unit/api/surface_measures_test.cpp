@@ -83,10 +83,20 @@ class SurfaceMeasures : public testing::TestWithParam<Shape> {
  protected:
   static constexpr int kLevels = 3;
   Sample sample() const { return sample_stream(GetParam(), {false, kLevels, 1e-3}); }
-  /// Calls part(decoder) after each of some prefixes.
+  /// Calls part(decoder) after each of some prefixes, for each sampling.
   template <class Part>
   void for_prefixes(const Sample& sample, const Part& part) {
-    Decoder decoder = decoder_for(sample, false);
+    for (const zt_sampling sampling : {ZT_SAMPLE_LIMIT, ZT_SAMPLE_BALANCED}) {
+      SCOPED_TRACE(sampling);
+      for_prefixes_of(sample, sampling, part);
+    }
+  }
+  template <class Part>
+  void for_prefixes_of(const Sample& sample, zt_sampling sampling, const Part& part) {
+    zt_options options = default_options();
+    options.sampling = sampling;
+    Decoder decoder(sample.stream.base_positions, flat_indices(sample.base), sample.levels,
+                    options);
     const std::span<const std::uint8_t> bytes = sample.stream.bytes;
     constexpr std::size_t kParts = 12;
     for (std::size_t k = 0; k <= kParts; ++k) {
