@@ -6,7 +6,7 @@
  *
  *   zt_decoder* decoder = zt_create(NULL);
  *   zt_status status = zt_feed(decoder, bytes, size);      // as often as bytes arrive
- *   zt_info info; zt_get_info(decoder, &info);
+ *   zt_info info; zt_get_info(decoder, &info, sizeof info);
  *   if (info.base_ready) {
  *     uint32_t vertices = zt_vertex_count(decoder, info.levels);
  *     zt_reconstruct(decoder, info.levels, positions, 12, normals, 12, vertices);
@@ -65,8 +65,8 @@ typedef enum zt_result {
  * or null; `release` gets the size that was asked for. Both are given or neither. They are called
  * from within the functions here that take the decoder, by the thread that called it. Everything
  * that grows with the levels comes from here; lists of the base mesh, and what OpenSubdiv needs
- * while it looks at the base, come from operator new; if that fails in OpenSubdiv, what it had taken
- * is lost. */
+ * while it looks at the base, come from operator new; if that fails in OpenSubdiv, what it had
+ * taken is lost. */
 typedef struct zt_allocator {
   void* (*allocate)(void* user, size_t size);
   void (*release)(void* user, void* memory, size_t size);
@@ -85,7 +85,7 @@ typedef struct zt_jobs {
 
 /* Where the vertices of a level lie. */
 typedef enum zt_sampling {
-  ZT_SAMPLE_LIMIT = 0,   /* on the smooth surface: a vertex stays where it is at finer levels */
+  ZT_SAMPLE_LIMIT = 0,   /* on the smooth surface: only details of finer levels move a vertex */
   ZT_SAMPLE_BALANCED = 1 /* a little outside where the surface is convex, so that the triangles are
                             about as much outside as inside: a third less error at coarse levels */
 } zt_sampling;
@@ -126,7 +126,8 @@ typedef struct zt_prefix_error {
 } zt_prefix_error;
 
 /* A decoder for a stream that carries its base mesh (a .zt file). `options` may be null: the
- * defaults. Returns null when out of memory or if options->struct_size is 0. */
+ * defaults. Returns null when out of memory, or if the options' struct_size is 0, their sampling
+ * unknown or their allocator a half. */
 ZT_API zt_decoder* zt_create(const zt_options* options);
 
 /* A decoder for a stream bound to the caller's base mesh (the payload of a glTF file). Positions
@@ -135,8 +136,8 @@ ZT_API zt_decoder* zt_create(const zt_options* options);
  * stream made for another base is ZT_BROKEN. `levels` is what the file says of the stream; one with
  * another number is ZT_BROKEN. The smooth limit surface of the base can be reconstructed before the
  * first byte; sharp edges and details come with the bytes. An index out of range, a mesh that is no
- * surface and levels beyond the limits are ZT_BROKEN too. Returns null when out of memory, when a
- * pointer is null, or if options->struct_size is 0. */
+ * surface and levels beyond the limits are ZT_BROKEN too. Returns null when a pointer is null, and
+ * when zt_create would. */
 ZT_API zt_decoder* zt_create_for_base(const void* positions, size_t position_stride,
                                       uint32_t vertex_count, const uint32_t* indices,
                                       uint32_t triangle_count, int32_t levels,
