@@ -88,7 +88,7 @@ typedef enum zt_sampling {
   ZT_SAMPLE_LIMIT = 0,   /* on the smooth surface: only details of finer levels move a vertex */
   ZT_SAMPLE_BALANCED = 1 /* a little outside where the surface is convex, so that the triangles are
                             about as much outside as inside: a third less error at coarse levels,
-                            none at the finest */
+                            no less at the finest */
 } zt_sampling;
 
 /* How a decoder works and what it is willing to decode; a stream beyond the limits is refused
