@@ -1,7 +1,7 @@
 # What `cmake --install` installs, by component:
 #   runtime       libzerotree.so.0.1
 #   development   headers, libzerotree.a and libzerotree.so, the CMake package, zerotree.pc
-#   command       bin/zerotree
+#   command       bin/zerotree, and its target for the CMake package
 # Everything finds its parts relative to where it lies, so the prefix can be moved.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/zerotree)
@@ -25,6 +25,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/zerotreeConfigVersion.cma
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/zerotreeConfig.cmake
               ${PROJECT_BINARY_DIR}/zerotreeConfigVersion.cmake
+              cmake/ZerotreeValidateAssets.cmake cmake/ZerotreeWriteAssetDepfile.cmake
         DESTINATION ${package_dir} COMPONENT development)
 
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_FULL_INCLUDEDIR BASE_DIRECTORY ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig
@@ -34,5 +35,7 @@ install(FILES ${PROJECT_BINARY_DIR}/zerotree.pc DESTINATION ${CMAKE_INSTALL_LIBD
         COMPONENT development)
 
 if(ZEROTREE_BUILD_CONVERTER)
-  install(TARGETS zerotree RUNTIME COMPONENT command)
+  install(TARGETS zerotree EXPORT zerotree_command RUNTIME COMPONENT command)
+  install(EXPORT zerotree_command NAMESPACE zerotree:: FILE zerotree_command.cmake
+          DESTINATION ${package_dir} COMPONENT command)
 endif()
