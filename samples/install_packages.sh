@@ -12,7 +12,8 @@ run_packages=(
   fonts-dejavu-core libgtest-dev)
 test_packages=(
   assimp-utils draco gnuplot-nox python3 clang-format libbenchmark-dev
-  libjansson-dev libogre-1.12-dev xvfb xauth libgl1-mesa-dri)
+  libjansson-dev libogre-1.12-dev xvfb xauth libgl1-mesa-dri
+  make pre-commit python3-yaml)
 
 case "${1:-}" in
   run) wanted=("${run_packages[@]}") ;;
