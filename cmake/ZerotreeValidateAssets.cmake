@@ -8,26 +8,26 @@
 #     [REPORT file.json] [JUNIT file.xml]               reports
 #     [ALL])
 #
-# TARGET      If there is a target of this name, it gets a dependency: it is not built while an asset
-#             is broken. (The checks are then the target NAME_assets, NAME_assets_2, ...) Otherwise
-#             it is the name of the custom target that is made here.
+# TARGET      If there is a target of this name, it gets a dependency: it is not built while an
+#             asset is broken. (The checks are then the target NAME_assets, NAME_assets_2, ...)
+#             Otherwise it is the name of the custom target that is made here.
 # FILES       .glb, .gltf or .zt files, relative to the current source folder. They are there when
-#             CMake runs, or the build of this folder makes them (outputs of add_custom_command, with
-#             full paths).
-# DIRECTORY   Folders, relative to the current source folder: all .glb, .gltf and .zt files in them and
-#             in their subfolders. A build notices files that come and go.
+#             CMake runs, or the build of this folder makes them: outputs of add_custom_command,
+#             with full paths.
+# DIRECTORY   Folders, relative to the current source folder: all .glb, .gltf and .zt files in them
+#             and in their subfolders. A build notices files that come and go.
 # REPORT, JUNIT  Relative to the current binary folder. They are written whether the check succeeds
 #             or fails.
 # ALL         The checks run in the default build.
 #
 # A file is checked again when it changed, or a file that it names (buffers, images), the options or
-# the command. (Ninja cannot follow buffers with a # or & in their names and checks such files in every
-# build.) Files are checked in parallel; with REPORT or JUNIT one call checks all files, because one
-# report tells of them all.
+# the command. (Build tools cannot follow buffers with #, & or % in their names; Ninja then checks
+# the file in every build.) Files are checked in parallel; with REPORT or JUNIT one call checks all
+# files, because one report tells of them all.
 #
 # Needs CMake 3.20 and the target zerotree::zerotree: find_package(zerotree COMPONENTS command), or
-# add_subdirectory of zerotree with its converter. Errors end the configuration: an unknown argument,
-# a file that is not there, a folder without assets, a command that is not installed.
+# add_subdirectory of zerotree with its converter. Errors end the configuration: an unknown
+# argument, a file that is not there, a folder without assets, a command that is not installed.
 include_guard(GLOBAL)
 cmake_policy(PUSH)
 cmake_policy(VERSION 3.5...3.25)
@@ -39,8 +39,9 @@ function(_zerotree_list_assets out files folders)
     cmake_path(ABSOLUTE_PATH file BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} NORMALIZE)
     get_source_file_property(is_generated "${file}" GENERATED)
     if(NOT is_generated AND (NOT EXISTS "${file}" OR IS_DIRECTORY "${file}"))
-      message(FATAL_ERROR "zerotree_validate_assets: there is no file ${file}. FILES are relative to \
-${CMAKE_CURRENT_SOURCE_DIR}; for a folder use DIRECTORY, for a file that the build makes its full path.")
+      message(FATAL_ERROR "zerotree_validate_assets: there is no file ${file}. FILES are relative \
+to ${CMAKE_CURRENT_SOURCE_DIR}; for a folder use DIRECTORY, for a file that the build makes its \
+full path.")
     endif()
     list(APPEND assets "${file}")
   endforeach()
@@ -48,8 +49,8 @@ ${CMAKE_CURRENT_SOURCE_DIR}; for a folder use DIRECTORY, for a file that the bui
     cmake_path(ABSOLUTE_PATH folder BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} NORMALIZE)
     file(GLOB_RECURSE found CONFIGURE_DEPENDS "${folder}/*.glb" "${folder}/*.gltf" "${folder}/*.zt")
     if(NOT found)
-      message(FATAL_ERROR "zerotree_validate_assets: there is no .glb, .gltf or .zt file in ${folder}. \
-DIRECTORY is relative to ${CMAKE_CURRENT_SOURCE_DIR}.")
+      message(FATAL_ERROR "zerotree_validate_assets: there is no .glb, .gltf or .zt file in \
+${folder}. DIRECTORY is relative to ${CMAKE_CURRENT_SOURCE_DIR}.")
     endif()
     list(APPEND assets ${found})
   endforeach()
@@ -57,11 +58,10 @@ DIRECTORY is relative to ${CMAKE_CURRENT_SOURCE_DIR}.")
   set(${out} "${assets}" PARENT_SCOPE)
 endfunction()
 
-# Adds the command that checks some files together, and sets OUT to the stamp it leaves. The stamp is
-# named after all that the command is told, because Make does not notice a changed command.
+# Adds the command that checks some files together, and sets OUT to the stamp it leaves.
 function(_zerotree_add_check out target files options reports)
   set(script ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/ZerotreeWriteAssetDepfile.cmake)
-  string(SHA256 hash "${files};${options}")
+  string(SHA256 hash "${files}")
   string(SUBSTRING ${hash} 0 16 hash)
   set(stamp ${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/zerotree_assets/${target}/${hash}.stamp)
   list(LENGTH files count)
@@ -81,8 +81,8 @@ function(_zerotree_add_check out target files options reports)
   set(${out} ${stamp} PARENT_SCOPE)
 endfunction()
 
-# Sets OUT to the options of the command, and REPORTS to the files it is to write, from the arguments
-# ASSETS_... of the caller.
+# Sets OUT to the options of the command, and REPORTS to the files it is to write, from the
+# arguments ASSETS_... of the caller.
 function(_zerotree_list_options out reports)
   set(options ${ASSETS_OPTIONS})
   foreach(budget BYTES ERROR TRIANGLES)
@@ -129,8 +129,8 @@ ZEROTREE_BUILD_CONVERTER to ON.")
 endfunction()
 
 function(zerotree_validate_assets)
-  cmake_parse_arguments(PARSE_ARGV 0 ASSETS "ALL" "TARGET;MAX_BYTES;MAX_ERROR;MAX_TRIANGLES;REPORT;JUNIT"
-                        "FILES;DIRECTORY;OPTIONS")
+  cmake_parse_arguments(PARSE_ARGV 0 ASSETS
+    "ALL" "TARGET;MAX_BYTES;MAX_ERROR;MAX_TRIANGLES;REPORT;JUNIT" "FILES;DIRECTORY;OPTIONS")
   _zerotree_check_arguments()
   _zerotree_list_assets(assets "${ASSETS_FILES}" "${ASSETS_DIRECTORY}")
   _zerotree_list_options(options reports)
@@ -146,9 +146,11 @@ function(zerotree_validate_assets)
   endif()
 
   if(reports)
+    # The list is twice in the command, of which Linux gives a shell 128 KiB.
     string(LENGTH "${assets}" length)
-    if(length GREATER 50000) # of the 128 KiB that Linux gives a shell's command; the list is in it twice
-      message(FATAL_ERROR "zerotree_validate_assets: too many files for one report: use several targets")
+    if(length GREATER 50000)
+      message(FATAL_ERROR "zerotree_validate_assets: too many files for one report: call it for \
+several targets, with a report each.")
     endif()
     _zerotree_add_check(stamps ${target} "${assets}" "${options}" "${reports}")
   else()

@@ -1,5 +1,6 @@
-# The second step of a check of zerotree_validate_assets, when the assets are known to be right: writes
-# STAMP, and STAMP.d, which tells Ninja and Make what other files (buffers, images) the assets name.
+# The second step of a check of zerotree_validate_assets, when the assets are known to be right:
+# writes STAMP, and STAMP.d, which tells Ninja and Make what other files (buffers, images) the assets
+# name.
 #   cmake -DASSETS=file... -DSTAMP=file -P ZerotreeWriteAssetDepfile.cmake
 cmake_minimum_required(VERSION 3.20)
 
@@ -7,7 +8,8 @@ cmake_minimum_required(VERSION 3.20)
 function(read_json out asset)
   set(json)
   file(READ "${asset}" head LIMIT 16 HEX)
-  if(head MATCHES "^676c5446................(..)(..)(..)(..)") # "glTF", version, length, length of JSON
+  # "glTF", version, length, length of the JSON
+  if(head MATCHES "^676c5446................(..)(..)(..)(..)")
     math(EXPR length "0x${CMAKE_MATCH_4}${CMAKE_MATCH_3}${CMAKE_MATCH_2}${CMAKE_MATCH_1}")
     file(READ "${asset}" json OFFSET 20 LIMIT ${length})
   elseif(head MATCHES "^(20|09|0a|0d)*7b") # a brace; streams begin with a letter
@@ -29,7 +31,7 @@ function(decode_uri out uri)
   set(${out} "${path}${uri}" PARENT_SCOPE)
 endfunction()
 
-# Appends the files that the elements of an array of the JSON (buffers, images) name to the list OUT.
+# Appends to the list OUT the files that the elements of an array of the JSON name: buffers, images.
 function(append_named_files out asset json array)
   string(JSON count ERROR_VARIABLE absent LENGTH "${json}" ${array})
   if(absent OR count EQUAL 0)

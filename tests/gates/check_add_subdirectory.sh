@@ -3,7 +3,7 @@
 # makes the command first and validates with that.
 # Usage: check_add_subdirectory.sh ZEROTREE-SOURCES ASSETS WORK-FOLDER
 set -euo pipefail
-sources=$1 assets=$2 work=$3
+sources=$1 assets=$2 work=$3 log=$3/log.txt
 rm -rf "$work"
 mkdir -p "$work/project"
 cp "$assets/good.glb" "$work/project"
@@ -15,13 +15,14 @@ zerotree_validate_assets(TARGET assets FILES good.glb)
 CMAKE
 die() {
   echo "check_add_subdirectory: $*" >&2
-  cat "$work/log.txt" >&2
+  cat "$log" >&2
   exit 1
 }
-cmake -S "$work/project" -B "$work/build" -G Ninja -DZEROTREE_SOURCES="$sources" >"$work/log.txt" 2>&1 ||
+cmake -S "$work/project" -B "$work/build" -G Ninja -DZEROTREE_SOURCES="$sources" >"$log" 2>&1 ||
   die "cannot configure"
-ninja -C "$work/build" -t commands assets >"$work/log.txt" || die "there is no target for the assets"
-linked=$(grep -n -m 1 -- '-o bin/zerotree ' "$work/log.txt" | cut -d : -f 1)
-validated=$(grep -n -m 1 "$work/build/bin/zerotree validate $work/project/good.glb" "$work/log.txt" | cut -d : -f 1)
+ninja -C "$work/build" -t commands assets >"$log" || die "there is no target for the assets"
+line_of() { grep -n -m 1 -F -- "$1" "$log" | cut -d : -f 1 || true; }
+linked=$(line_of "-o bin/zerotree ")
+validated=$(line_of "$work/build/bin/zerotree validate $work/project/good.glb")
 [[ -n $linked && -n $validated ]] || die "the command is not linked, or does not validate"
 ((linked < validated)) || die "the command validates before it is linked"

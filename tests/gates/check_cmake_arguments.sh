@@ -21,7 +21,8 @@ arguments "unknown arguments: QUICK" "QUICK;TARGET;assets;FILES;assets/good.glb"
 arguments "no value for MAX_BYTES" "TARGET;assets;FILES;assets/good.glb;MAX_BYTES"
 arguments "there is no file $project/assets/god.glb" "TARGET;assets;FILES;assets/god.glb"
 arguments "there is no file $project/assets. FILES" "TARGET;assets;FILES;assets"
-arguments "there is no .glb, .gltf or .zt file in $project/assets/levels" "TARGET;assets;DIRECTORY;assets/levels"
+arguments "there is no .glb, .gltf or .zt file in $project/assets/levels" \
+  "TARGET;assets;DIRECTORY;assets/levels"
 
 rm "$prefix/bin/zerotree" "$prefix"/lib*/cmake/zerotree/zerotree_command*.cmake
 refused "component \"command\"" -DARGUMENTS="TARGET;assets;FILES;assets/good.glb"

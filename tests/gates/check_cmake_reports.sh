@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds a project with budgets and reports: a budget exceeded fails the build, and there are reports
-# of builds that succeed and of those that fail.
+# Builds a project with budgets and reports: a budget exceeded fails the build, and there are
+# reports of builds that succeed and of those that fail.
 # Usage: check_cmake_reports.sh GENERATOR PREFIX ASSETS WORK-FOLDER
 set -euo pipefail
 source "$(dirname "$0")/consumer_builds.sh"
@@ -13,7 +13,8 @@ budgets() { configure -DCONSUMER_CASE=reports -DBUDGETS="$1" || die "cannot conf
 reports() {
   python3 - "$json" "$junit" "$@" <<'PYTHON' >>"$log" 2>&1 || die "the reports are wrong"
 import json, sys, xml.etree.ElementTree as xml
-reports, cases = json.load(open(sys.argv[1])), xml.parse(sys.argv[2]).getroot().findall(".//testcase")
+reports = json.load(open(sys.argv[1]))
+cases = xml.parse(sys.argv[2]).getroot().findall(".//testcase")
 assert [r["uri"].split("/")[-1] for r in reports] == ["good one.glb", "split.gltf"], reports
 codes = [{m["code"] for m in r["issues"]["messages"]} for r in reports]
 assert len(cases) == 2 and sum(sys.argv[3] in c for c in codes) == int(sys.argv[4]), codes

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Commits assets to a repository that uses the hooks of this project: good ones are taken, bad ones are
-# not. Runs without a network.
+# Commits assets to a repository that uses the hooks of this project: good ones are taken, bad ones
+# are not. Runs without a network.
 # Usage: check_pre_commit.sh HOOKS.yaml PREFIX ASSETS WORK-FOLDER
 set -euo pipefail
 hooks=$1 given=$3 work=$4 log=$4/log.txt
@@ -42,7 +42,9 @@ refused() { # refused WHAT TEXT...
   local what=$1 text
   shift
   if commit "$what"; then die "$what: the commit is taken"; fi
-  for text in "$@"; do grep -qF -- "$text" "$log" || die "$what: the output does not say '$text'"; done
+  for text in "$@"; do
+    grep -qF -- "$text" "$log" || die "$what: the output does not say '$text'"
+  done
 }
 
 write_config zerotree-validate "[]"
@@ -55,7 +57,8 @@ refused "a bad file" "zerotree-validate" PAYLOAD_BASE_MISMATCH "my scans/good.gl
 cp "$given/good.glb" "my scans/good.glb"
 
 write_config zerotree-validate-folder "[my scans]"
-taken "the other hook"
+echo anything >other.bin
+taken "a file that is no asset, with the other hook"
 truncate -s 5 "my scans/split.zt.bin"
 refused "a payload cut short, alone" "my scans/split.gltf: error"
 cp "$given/split.zt.bin" "my scans"

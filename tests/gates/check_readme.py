@@ -34,8 +34,9 @@ def read_blocks(readme):
 
 
 def run(command, folder, environment):
-    result = subprocess.run(command, cwd=folder, env=environment, text=True, stdin=subprocess.DEVNULL,
-                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60)
+    result = subprocess.run(command, cwd=folder, env=environment, text=True, timeout=60,
+                            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT)
     return result.returncode, result.stdout
 
 
@@ -52,7 +53,8 @@ def lay_out(folder, ship, assets):
 def check_reports(folder, errors, output):
     reports = json.loads((folder / "validation.json").read_text())
     counts = {Path(report["uri"]).name: report["issues"]["numErrors"] for report in reports}
-    check(counts == {"rock.gltf": 0, "ship.glb": errors}, f"validation.json counts {counts}\n{output}")
+    check(counts == {"rock.gltf": 0, "ship.glb": errors},
+          f"validation.json counts {counts}\n{output}")
     cases = xml.parse(folder / "validation.xml").getroot().findall(".//testcase")
     failed = [case for case in cases if case.find("failure") is not None]
     check(len(cases) == 2 and len(failed) == min(errors, 1),
@@ -68,21 +70,25 @@ def check_shell(command, work, assets, environment):
 
 
 def check_cmake(text, work, assets, environment):
-    for ship, target, code in (("good.glb", "all", 0), ("bad.glb", "assets", 1), ("bad.glb", "game", 1)):
+    builds = (("good.glb", "all", 0), ("bad.glb", "assets", 1), ("bad.glb", "game", 1))
+    for ship, target, code in builds:
         lay_out(work, ship, assets)
         (work / "CMakeLists.txt").write_text(PROJECT + text)
         status, output = run(["cmake", "-G", "Ninja", "-S", ".", "-B", "build"], work, environment)
         check(status == 0, f"the CMake block does not configure\n{output}")
         status, output = run(["cmake", "--build", "build", "--target", target], work, environment)
-        check((status != 0) == (code != 0), f"the build of {target} ends with {status} on {ship}\n{output}")
-        check(code == 0 or "PAYLOAD_BASE_MISMATCH" in output, f"no word of what is wrong\n{output}")
+        check((status != 0) == (code != 0),
+              f"the build of {target} ends with {status} on {ship}\n{output}")
+        check(code == 0 or "PAYLOAD_BASE_MISMATCH" in output,
+              f"no word of what is wrong\n{output}")
         if target != "game":
             check_reports(work / "build", code, output)
 
 
 def main():
-    readme, hooks_file, prefix, assets, work = (Path(argument).resolve() for argument in sys.argv[1:])
-    environment = dict(os.environ, PATH=f"{prefix}/bin:{os.environ['PATH']}", CMAKE_PREFIX_PATH=str(prefix))
+    readme, hooks_file, prefix, assets, work = map(Path.resolve, map(Path, sys.argv[1:]))
+    environment = dict(os.environ, PATH=f"{prefix}/bin:{os.environ['PATH']}",
+                       CMAKE_PREFIX_PATH=str(prefix))
     cmake, pre_commit, shell, actions = read_blocks(readme)
 
     hooks = {hook["id"] for hook in yaml.safe_load(hooks_file.read_text())}

@@ -1,4 +1,4 @@
-# Sourced by check_cmake_*.sh: a copy of the consumer, of the package and of the assets, and builds of it.
+# Sourced by check_cmake_*.sh: makes a copy of the consumer and of the package, and builds it.
 # Arguments: GENERATOR PREFIX ASSETS WORK-FOLDER
 generator=$1 prefix=$4/prefix given=$3 work=$4 # the package is moved once more, and touched
 project=$work/project log=$work/log.txt
@@ -13,7 +13,10 @@ die() {
   cat "$log" >&2
   exit 1
 }
-configure() { cmake -S "$project" -B "$work/build" -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" "$@" >"$log" 2>&1; }
+configure() {
+  cmake -S "$project" -B "$work/build" -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" "$@" \
+    >"$log" 2>&1
+}
 build() { cmake --build "$work/build" "$@" >"$log" 2>&1; }
 says() { tr -s ' \n' ' ' <"$log" | grep -qF -- "$1"; } # CMake wraps its messages
 
@@ -30,5 +33,6 @@ checked() {
   local expected found
   expected=$(printf '%s\n' "$@" | sort)
   found=$(sed -n 's/^.*Validating //p' "$log" | sort)
-  [[ $expected == "$found" ]] || die "checked were '${found//$'\n'/, }', not '${expected//$'\n'/, }'"
+  [[ $expected == "$found" ]] ||
+    die "checked were '${found//$'\n'/, }', not '${expected//$'\n'/, }'"
 }
