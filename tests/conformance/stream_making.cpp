@@ -104,6 +104,7 @@ std::vector<std::size_t> choose_prefixes(const StreamContent& content,
   }
   if (cuts == Cuts::some)
     lengths.insert({header + 1, stream.pass_ends.front().bytes, size * 2 / 3, size - 1});
+  if (cuts == Cuts::half) lengths.insert(size / 2);
   while (*lengths.rbegin() > size) lengths.erase(std::prev(lengths.end()));
   return {lengths.begin(), lengths.end()};
 }

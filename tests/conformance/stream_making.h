@@ -38,6 +38,7 @@ encode::StreamContent external_content(const test::Shape& shape, const StreamPla
 enum class Cuts {
   every,  ///< all awkward places
   some,   ///< a few, and one byte short
+  half,   ///< half of it
   whole,  ///< none
 };
 

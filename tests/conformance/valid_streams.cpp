@@ -2,6 +2,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bitstream/base_traversal.h"
 #include "bitstream/stream_header.h"
 #include "conformance_cases.h"
 #include "encode/header_writer.h"
@@ -39,13 +40,31 @@ class CaseList {
   std::vector<StreamCase> cases_;
 };
 
+/// The stream of EXAMPLE.md.
+StreamContent example() {
+  StreamContent content;
+  const TriangleMesh mesh = test::tetrahedron();
+  const bitstream::BaseTopology base{4, mesh.triangles, {}, {}};
+  content.base = bitstream::reorder(base, bitstream::canonical_base_order(base));
+  content.header.transform = 1;
+  content.header.levels = 1;
+  content.header.finest_step = 0.0625f;
+  content.header.positions = {{-8, -8, -8}, 0.125f, 5, 3};
+  content.positions = {27, 27, 27, 27, 4, 4, 4, 27, 4, 4, 6, 27};
+  content.coefficients = {
+      6, 1, {{{11, 9, 21, 13, 0, 15}, {0, 0, 5, 0, 0, 0}, {0, -3, 0, 0, 0, 0}}}};
+  return content;
+}
+
 // Connectivity, tags and surfaces of every class of base.
 void add_bases(CaseList& list) {
+  list.add(make_case("tetrahedron", {"the stream of EXAMPLE.md", "cut at every awkward place"},
+                     example(), Cuts::every));
   list.embedded("icosahedron", {"closed", "levels 2", "normals"}, base_shape("icosahedron"),
                 {.detail_bits = {8, 6}}, Cuts::some)
       .with_normals = true;
   list.embedded("grid", {"boundary", "levels 2", "normals"}, base_shape("grid"),
-                {.detail_bits = {7, 5}}, Cuts::some)
+                {.detail_bits = {7, 5}}, Cuts::half)
       .with_normals = true;
   list.embedded("cube", {"creases that end in corners", "normals"}, base_shape("cube"),
                 {.detail_bits = {6, 4}}, Cuts::some)
@@ -54,7 +73,7 @@ void add_bases(CaseList& list) {
                 {.detail_bits = {8, 6}}, Cuts::every);
   const Shows kinds = {"darts", "a crease that meets the boundary", "a closed crease",
                        "three creases in a vertex", "corners: smooth, on a boundary, on a crease"};
-  list.embedded("crease_grid", kinds, crease_grid(), {.detail_bits = {7, 5}}, Cuts::some);
+  list.embedded("crease_grid", kinds, crease_grid(), {.detail_bits = {7, 5}}, Cuts::half);
   list.embedded("crease_grid_mirror", kinds, crease_grid(),
                 {.transform = kMirror, .detail_bits = {7, 5}});
   list.embedded("many_valences", {"valence 3, 4, 5, 8 and 12", "four components"}, many_valences(),
@@ -65,12 +84,16 @@ void add_bases(CaseList& list) {
                 {.levels = 1, .detail_bits = {6}}, Cuts::some);
   list.embedded("two_components", {"a closed component and one with a boundary"},
                 base_shape("two_components"), {.levels = 1, .detail_bits = {5}}, Cuts::some);
-  list.embedded("holes", {"several boundary loops", "transform 0"}, wild_sphere(1, 6, 0, 5),
+  list.embedded("holes", {"several boundary loops", "transform 0"}, wild_sphere(1, 3, 0, 1),
                 {.levels = 1, .transform = kMirror, .detail_bits = {6}});
   list.embedded("wild_closed", {"valence 3 to 14", "connectivity of a closed base", "levels 0"},
                 wild_sphere(2, 0, 0, 7), {.levels = 0});
   list.embedded("wild_open", {"many boundary loops", "tags at random", "levels 0"},
                 wild_sphere(2, 40, 0.2, 8), {.levels = 0});
+  list.embedded("wild_ragged", {"more boundary than surface", "levels 0"}, wild_sphere(1, 20, 0, 1),
+                {.levels = 0});
+  list.embedded("wild_torn", {"triangles that hang together by edges", "levels 0"},
+                wild_sphere(1, 150, 0, 1), {.levels = 0});
   list.embedded("rings", {"JOIN over every length of near distances"},
                 rings({3, 4, 5, 6, 9, 12, 17, 34, 66, 131, 258}),
                 {.levels = 0, .position_bits = 9});
@@ -116,7 +139,7 @@ void add_fields(CaseList& list) {
   list.embedded(
       "four_levels", {"levels 4"}, tetrahedron,
       {.levels = 4, .finest_step = 0x1p-10, .detail_bits = {10, 8, 6, 4}, .per_mille = 300},
-      Cuts::some);
+      Cuts::half);
   list.embedded("three_levels", {"levels 3", "many details: crowded contexts", "transform 0"},
                 base_shape("icosahedron"),
                 {.levels = 3,
@@ -128,8 +151,15 @@ void add_fields(CaseList& list) {
                 {.levels = 3, .detail_bits = {0, 0, 4}, .per_mille = 60}, Cuts::some);
   list.embedded("coarsest_only", {"details of the coarsest level alone"}, tetrahedron,
                 {.levels = 3, .detail_bits = {8, 0, 0}}, Cuts::some);
+  list.embedded(
+      "five_levels", {"levels 5", "few details in many planes"},
+      {"square", test::grid(1, 1), {}, {}},
+      {.levels = 5, .finest_step = 0x1p-16, .detail_bits = {16, 15, 13, 12, 10}, .per_mille = 60});
   list.embedded("six_levels", {"levels 6", "one triangle", "trees of height 5"}, triangle(),
-                {.levels = 6, .detail_bits = {8, 6, 5, 4, 3, 2}, .per_mille = 40});
+                {.levels = 6,
+                 .finest_step = 0x1p-13,
+                 .detail_bits = {12, 11, 10, 9, 8, 6},
+                 .per_mille = 100});
 }
 
 /// A triangle far away in units of its own size: corners stay where they are, so nothing is lost.
@@ -137,6 +167,22 @@ StreamContent far_triangle() {
   StreamContent content = embedded_content(triangle(), {.levels = 0});
   content.header.positions.origin = {2147483647, -2147483647 - 1, 70000};
   return content;
+}
+
+/// All points in one but for some far off: these are what neighbours foretell.
+test::Shape spikes() {
+  test::Shape shape = wild_sphere(2, 0, 0, 7);
+  for (std::size_t i = 0; i < shape.mesh.positions.size(); ++i)
+    shape.mesh.positions[i] = Eigen::Vector3d::Constant(i % 30 == 7 ? 1 : i == 0 ? 0 : 0.43);
+  return shape;
+}
+
+void add_contexts(CaseList& list) {
+  list.embedded("spikes", {"every context of the positions", "levels 0"}, spikes(),
+                {.levels = 0, .initial_planes = 10});
+  list.embedded("pillow", {"valence 2"},
+                {"pillow", {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0.5}}, {{0, 1, 2}, {2, 1, 0}}}, {}, {}},
+                {.detail_bits = {6, 4}}, Cuts::some);
 }
 
 void add_origins(CaseList& list) {
@@ -187,6 +233,7 @@ std::vector<StreamCase> stream_cases() {
   CaseList list;
   add_bases(list);
   add_fields(list);
+  add_contexts(list);
   add_origins(list);
   add_external(list);
   add_trailing(list);
