@@ -132,7 +132,8 @@ double relative_difference(const std::vector<float>& found, const std::vector<fl
     high[i % 3] = i < 3 ? value : std::max(high[i % 3], value);
     largest = std::max(largest, std::abs(double{found[i]} - value));
   }
-  return largest / std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  const double diagonal = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  return largest == 0 ? 0 : largest / diagonal;
 }
 
 void expect_surface(zt_decoder* decoder, const json& expected, int levels) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bitstream/base_edges.h"
+#include "conditioning.h"
 #include "progressive/progressive_surface.h"
 #include "surface/subdivision_hierarchy.h"
 
@@ -18,6 +19,9 @@ namespace {
 using bitstream::BaseTopology;
 using bitstream::DecodeStatus;
 using surface::ProgressiveSurface;
+
+// A fifth of what decoders may differ by.
+constexpr double kMostChange = 2e-6;
 
 // The shortest decimals that read back as the same number.
 template <class Number>
@@ -70,10 +74,13 @@ ProgressiveSurface surface_for(const std::optional<Base>& base, int levels) {
   return ProgressiveSurface({base->topology, base->positions, levels});
 }
 
+std::vector<float> known_positions(const ProgressiveSurface& surface, const StreamCase& stream) {
+  return stream.base ? stream.base->positions : surface.decoder().base_positions();
+}
+
 std::string known_base_json(const ProgressiveSurface& surface, const StreamCase& stream) {
   const BaseTopology& base = surface.base();
-  const std::vector<float> positions =
-      stream.base ? stream.base->positions : surface.decoder().base_positions();
+  const std::vector<float> positions = known_positions(surface, stream);
   return "{\"positions\":" + vectors_json(positions) + ",\n\"triangles\":" + triangles_json(base) +
          ",\n\"creases\":" + numbers_json(std::span<const std::uint32_t>(crease_numbers(base))) +
          ",\"corners\":" + numbers_json(std::span<const std::uint32_t>(base.corner_vertices)) + "}";
@@ -134,14 +141,26 @@ std::vector<bool> vertices_without_normal(const BaseTopology& base, int levels) 
   return without;
 }
 
-std::string surface_json(ProgressiveSurface& surface, bool with_normals) {
+// Throws if rounding decides about the positions.
+void check_conditioning(const ProgressiveSurface& surface, std::span<const float> base_positions,
+                        std::span<const float> positions) {
+  // Without levels there are no frames, and without a header no details.
+  if (surface.levels() == 0 || !surface.decoder().header_ready()) return;
+  const double change = change_by_rounding(surface, base_positions, positions);
+  if (!(change <= kMostChange))
+    throw std::runtime_error("rounding moves positions by " + std::to_string(change) +
+                             " of the diagonal: decode another prefix");
+}
+
+std::string surface_json(ProgressiveSurface& surface, const StreamCase& stream) {
   const int level = surface.levels();
   std::vector<float> positions(3 * surface.counts(level).vertices), normals(positions.size());
   if (surface.write_limits(level, {{positions.data()}, {normals.data()}}) !=
       surface::SurfaceOutcome::done)
     throw std::runtime_error(surface.reason());
+  check_conditioning(surface, known_positions(surface, stream), positions);
   std::string text = "\"positions\":" + vectors_json(positions);
-  if (!with_normals) return text;
+  if (!stream.with_normals) return text;
   const std::vector<bool> without = vertices_without_normal(surface.base(), level);
   return text + ",\n\"normals\":" + list_of(positions.size() / 3, [&](std::size_t v) {
            return without[v] ? std::string("null")
@@ -164,8 +183,7 @@ std::string expected_json(const StreamCase& stream, std::size_t bytes) {
   text += status == DecodeStatus::done ? "done" : "more bytes wanted";
   if (!surface.is_ready()) return text + "\",\"base\":null,\"details\":[],\"positions\":null}\n";
   return text + "\",\n\"base\":" + known_base_json(surface, stream) +
-         ",\n\"details\":" + details_json(surface) + ",\n" +
-         surface_json(surface, stream.with_normals) + "}\n";
+         ",\n\"details\":" + details_json(surface) + ",\n" + surface_json(surface, stream) + "}\n";
 }
 
 std::string complaint_about(const BrokenCase& broken) {

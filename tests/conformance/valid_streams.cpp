@@ -115,7 +115,7 @@ void add_fields(CaseList& list) {
                  .position_bits = 1,
                  .initial_planes = 0,
                  .detail_bits = {6}},
-                Cuts::some);
+                Cuts::half);
   list.embedded("many_bits", {"position_bits 24", "tangent_ratio_log2 3"},
                 base_shape("icosahedron"),
                 {.levels = 1,
