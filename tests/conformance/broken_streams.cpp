@@ -189,6 +189,14 @@ void add_counts(BrokenList& list) {
                               kDepth, 1, {0x2e}));
 }
 
+/// A stream without details with the hash of this base.
+Bytes bound_to(const Base& base) {
+  Bytes bytes = encode::encode_stream(external_content(octahedron(), {.levels = 0})).bytes;
+  const std::uint32_t hash = bitstream::hash_base(base.topology, base.positions);
+  for (std::size_t i = 0; i < 4; ++i) bytes[kHash + i] = static_cast<std::uint8_t>(hash >> (8 * i));
+  return bytes;
+}
+
 void add_bases(BrokenList& list) {
   const char* const rule = "BITSTREAM 2: base_hash";
   const char* const other = "the base mesh given is not the one that the stream was made for";
@@ -210,13 +218,17 @@ void add_bases(BrokenList& list) {
   list.embedded_case("external_without_base", "BITSTREAM 2: where no base is at hand",
                      "the stream has no base mesh of its own and none was given", external());
   // The hash is right, so it is the base that breaks a rule.
-  Base fins{"three_at_an_edge", {5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}, {}, {}}, base.positions};
-  fins.positions.resize(15);
-  Bytes bytes = encode::encode_stream(external_content(octahedron(), {.levels = 0})).bytes;
-  const std::uint32_t hash = bitstream::hash_base(fins.topology, fins.positions);
-  for (std::size_t i = 0; i < 4; ++i) bytes[kHash + i] = static_cast<std::uint8_t>(hash >> (8 * i));
+  const Base fins{"three_at_an_edge",
+                  {5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}, {}, {}},
+                  {base.positions.begin(), base.positions.begin() + 15}};
   list.external_case("base_three_at_an_edge", "BITSTREAM 4: an edge has at most two faces",
-                     "base face 2 is the third at one edge", fins, std::move(bytes), 0);
+                     "base face 2 is the third at one edge", fins, bound_to(fins), 0);
+  Base flipped = base;
+  flipped.name = "face_turned_over";
+  std::swap(flipped.topology.triangles[2][0], flipped.topology.triangles[2][1]);
+  list.external_case(
+      "base_face_turned_over", "BITSTREAM 4: faces run through an edge in different directions",
+      "base face 6 is oriented against its neighbour", flipped, bound_to(flipped), 0);
 }
 
 void add_connectivity(BrokenList& list) {

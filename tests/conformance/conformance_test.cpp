@@ -12,7 +12,7 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -84,7 +84,8 @@ TEST(example, HexBlockIsTheStream) {
   std::istringstream block(page.substr(begin + open.size(), end - begin - open.size()));
   Bytes shown;
   for (std::string word; block >> word;) {
-    ASSERT_TRUE(std::regex_match(word, std::regex("[0-9a-f]{2}"))) << word;
+    ASSERT_TRUE(word.size() == 2 && word.find_first_not_of("0123456789abcdef") == word.npos)
+        << word;
     shown.push_back(static_cast<std::uint8_t>(std::stoi(word, nullptr, 16)));
   }
   EXPECT_EQ(shown, read_file(kFolder / "tetrahedron.zt"));

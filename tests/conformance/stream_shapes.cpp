@@ -80,6 +80,23 @@ test::Shape wild_sphere(int times, std::uint32_t holes, double share, std::uint3
   return shape;
 }
 
+test::Shape stellated_sphere() {
+  test::Shape shape{"stellated_sphere", test::icosahedron(), {}, {}};
+  const bitstream::BaseTopology base{12, shape.mesh.triangles, {}, {}};
+  shape.mesh.triangles = test::flip_edges(base, 144, 3, 40, 5).triangles;
+  for (int times = 0; times < 2; ++times) {
+    TriangleMesh fine{shape.mesh.positions, {}};
+    for (const auto& [a, b, c] : shape.mesh.triangles) {
+      const auto middle = static_cast<std::uint32_t>(fine.positions.size());
+      const auto& p = shape.mesh.positions;
+      fine.positions.push_back((p[a] + p[b] + p[c]) / 3);
+      fine.triangles.insert(fine.triangles.end(), {{a, b, middle}, {b, c, middle}, {c, a, middle}});
+    }
+    shape.mesh = std::move(fine);
+  }
+  return shape;
+}
+
 test::Shape rings(const std::vector<int>& lengths) {
   TriangleMesh mesh;
   for (std::size_t i = 0; i < lengths.size(); ++i)

@@ -18,6 +18,9 @@ test::Shape many_valences();
 /// A sphere with edges turned at random, valence 3 to 14; `holes` triangles are missing, and a
 /// `share` of edges and vertices is tagged.
 test::Shape wild_sphere(int times, std::uint32_t holes, double share, std::uint32_t seed);
+/// A sphere with edges turned at random whose triangles are divided in three, twice: most vertices
+/// have only neighbours that come before them.
+test::Shape stellated_sphere();
 /// Strips of these numbers of squares, each closed to a ring, on a grid of integers.
 test::Shape rings(const std::vector<int>& lengths);
 /// One triangle.

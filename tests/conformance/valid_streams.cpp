@@ -15,6 +15,8 @@ namespace {
 using encode::StreamContent;
 using Shows = std::vector<std::string>;
 
+constexpr std::size_t kExternalHeader = 11;  // bytes
+
 constexpr auto kMirror = surface::WaveletTransform::loop_quadrature_mirror;
 
 test::Shape base_shape(const std::string& name) {
@@ -169,17 +171,31 @@ StreamContent far_triangle() {
   return content;
 }
 
-/// All points in one but for some far off: these are what neighbours foretell.
-test::Shape spikes() {
-  test::Shape shape = wild_sphere(2, 0, 0, 7);
-  for (std::size_t i = 0; i < shape.mesh.positions.size(); ++i)
-    shape.mesh.positions[i] = Eigen::Vector3d::Constant(i % 30 == 7 ? 1 : i == 0 ? 0 : 0.43);
-  return shape;
+/// All points in one but for the last three: neighbours foretell nearly all.
+StreamContent one_point() {
+  StreamContent content = embedded_content(stellated_sphere(), {.levels = 0});
+  const std::size_t count = content.positions.size();
+  for (std::size_t i = 0; i < count; ++i)
+    content.positions[i] = i < count - 9 ? 512 : static_cast<std::uint32_t>(480 + i * i % 64);
+  return content;
+}
+
+/// A register of ones only, which no encoder writes: all decisions are 0.
+StreamCase all_ones() {
+  const test::Shape shape = small_base(0, "octahedron");
+  StreamCase one =
+      make_case("all_ones", {"a code not below the range: all decisions are 0"},
+                external_content(shape, {.levels = 1, .detail_bits = {6}}), Cuts::whole, &shape);
+  for (std::size_t i = kExternalHeader; i < one.bytes.size(); ++i) one.bytes[i] = 0xff;
+  // Two bytes of coded decisions are all there is to the sequence.
+  one.prefixes = {kExternalHeader + 2, kExternalHeader + 4, one.bytes.size()};
+  return one;
 }
 
 void add_contexts(CaseList& list) {
-  list.embedded("spikes", {"every context of the positions", "levels 0"}, spikes(),
-                {.levels = 0, .initial_planes = 10});
+  list.add(make_case("one_point", {"every context of the positions", "levels 0"}, one_point(),
+                     Cuts::whole));
+  list.add(all_ones());
   list.embedded("pillow", {"valence 2"},
                 {"pillow", {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0.5}}, {{0, 1, 2}, {2, 1, 0}}}, {}, {}},
                 {.detail_bits = {6, 4}}, Cuts::some);
@@ -208,7 +224,7 @@ void add_external(CaseList& list) {
   list.external("bound_creases", {"external base with creases", "cut in its tags"},
                 small_base(3, "creased"), {.detail_bits = {6, 4}}, Cuts::every);
   list.external("bound_levels_0", {"external base", "levels 0", "nothing coded"},
-                small_base(0, "octahedron"), {.levels = 0}, Cuts::every);
+                small_base(0, "octahedron"), {.levels = 0}, Cuts::whole);
   test::Shape integers = base_shape("icosahedron");
   integers.name = "integers";
   for (Eigen::Vector3d& p : integers.mesh.positions) p = (4000 * p).array().round() + 4000;
