@@ -97,11 +97,19 @@ class FolderMaker {
                           {"shows", stream.shows},         {"prefixes", ordered_json::array()}};
     for (const std::size_t length : stream.prefixes) {
       const std::string path = stream.name + "." + std::to_string(length) + ".json";
-      add(path, bytes_of(expected_json(stream, length)));
+      add(path, expected(stream, length, path));
       entry["prefixes"].push_back({{"byteLength", length}, {"expected", path}});
     }
     add(stream.name + ".zt", stream.bytes);
     append(streams_, entry);
+  }
+
+  static Bytes expected(const StreamCase& stream, std::size_t length, const std::string& path) {
+    try {
+      return bytes_of(expected_json(stream, length));
+    } catch (const std::exception& error) {
+      throw std::runtime_error(path + ": " + error.what());
+    }
   }
 
   void add_broken(const BrokenCase& broken) {
