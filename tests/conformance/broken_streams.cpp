@@ -96,19 +96,19 @@ void BrokenList::connectivity_case(const char* name, const char* rule, const cha
 void add_first_bytes(BrokenList& list) {
   const char* const not_ours = "this is not a Zerotree stream";
   const char* const other_version = "the stream has a format version this reader lacks";
-  list.embedded_case("magic_1", "BITSTREAM 2: magic", not_ours, replaced(embedded(), 0, 1, {'z'}));
-  list.embedded_case("magic_2", "BITSTREAM 2: magic", not_ours, replaced(embedded(), 1, 1, {'U'}));
-  list.embedded_case("version_0", "BITSTREAM 2: version", other_version,
+  list.embedded_case("magic_1", "A.2 magic", not_ours, replaced(embedded(), 0, 1, {'z'}));
+  list.embedded_case("magic_2", "A.2 magic", not_ours, replaced(embedded(), 1, 1, {'U'}));
+  list.embedded_case("version_0", "A.2 version", other_version,
                      replaced(embedded(), kKind, 1, {0x40}));
-  list.embedded_case("version_2", "BITSTREAM 2: version", other_version,
+  list.embedded_case("version_2", "A.2 version", other_version,
                      replaced(embedded(), kKind, 1, {0x42}));
-  list.embedded_case("transform_2", "RECONSTRUCTION Q: reserved transforms",
+  list.embedded_case("transform_2", "A.2 transform",
                      "the stream names wavelet transform 2, which this version lacks",
                      replaced(embedded(), kKind, 1, {0x81}));
-  list.external_case("transform_3", "RECONSTRUCTION Q: reserved transforms",
+  list.external_case("transform_3", "A.2 transform",
                      "the stream names wavelet transform 3, which this version lacks",
                      external_base(octahedron()), replaced(external(), kKind, 1, {0xd1}));
-  list.embedded_case("levels_15", "BITSTREAM 2: levels", "the header's levels are out of range",
+  list.embedded_case("levels_15", "A.2 levels", "the header's levels are out of range",
                      replaced(embedded(), kDepth, 1, {0x2f}));
 }
 
@@ -116,26 +116,26 @@ void add_planes(BrokenList& list) {
   const char* const too_many_initial = "the header has more initial planes than position bits";
   const char* const bad_bits = "the header's position bits are out of range";
   // planes | position_bits << 5 | initial_planes << 10
-  list.embedded_case("planes_31", "BITSTREAM 2: planes", "the header's bit planes are out of range",
+  list.embedded_case("planes_31", "A.2 planes", "the header's bit planes are out of range",
                      replaced(embedded(), kPlanes, 2, {0x5f, 0x11}));
-  list.embedded_case("planes_without_levels", "BITSTREAM 2: planes",
+  list.embedded_case("planes_without_levels", "A.2 planes",
                      "the header has bit planes but no levels",
                      replaced(embedded(), kDepth, 1, {0x20}));
-  list.embedded_case("position_bits_0", "BITSTREAM 2: position_bits", bad_bits,
+  list.embedded_case("position_bits_0", "A.2 position bits", bad_bits,
                      replaced(embedded(), kPlanes, 2, {0x04, 0x00}));
-  list.embedded_case("position_bits_29", "BITSTREAM 2: position_bits", bad_bits,
+  list.embedded_case("position_bits_29", "A.2 position bits", bad_bits,
                      replaced(embedded(), kPlanes, 2, {0xa4, 0x13}));
-  list.embedded_case("initial_planes_11", "BITSTREAM 2: initial_planes", too_many_initial,
+  list.embedded_case("initial_planes_11", "A.2 initial planes", too_many_initial,
                      replaced(embedded(), kPlanes, 2, {0x44, 0x2d}));
-  list.embedded_case("unnamed_bit", "BITSTREAM 2: bits that no field names are zero",
-                     too_many_initial, replaced(embedded(), kPlanes, 2, {0x44, 0x91}));
-  list.external_case("unnamed_bit_external", "BITSTREAM 2: bits that no field names are zero",
+  list.embedded_case("unnamed_bit", "A.2 zero bits", too_many_initial,
+                     replaced(embedded(), kPlanes, 2, {0x44, 0x91}));
+  list.external_case("unnamed_bit_external", "A.2 zero bits",
                      "the header has position planes but no base", external_base(octahedron()),
                      replaced(external(), kPlanes, 1, {0x24}));
 }
 
 void add_steps(BrokenList& list) {
-  const char* const rule = "BITSTREAM 2: finest_step";
+  const char* const rule = "A.2 finest step";
   const char* const complaint = "the header's finest step is not positive";
   list.embedded_case("step_0", rule, complaint, replaced(embedded(), kStep, 2, {0, 0}));
   list.embedded_case("step_minus_0", rule, complaint, replaced(embedded(), kStep, 2, {0, 0x80}));
@@ -150,41 +150,35 @@ void add_steps(BrokenList& list) {
 void add_positions(BrokenList& list) {
   const char* const bad_scale = "the header's position scale is out of range";
   const char* const malformed = "the header has a malformed number";
-  list.embedded_case("scale_infinite", "BITSTREAM 2: scale must be finite", bad_scale,
+  list.embedded_case("scale_infinite", "A.2 scale", bad_scale,
                      replaced(embedded(), kStep, 3, {0x00, 0x7f, 0xff}));
-  list.embedded_case("scale_0", "BITSTREAM 2: scale must be above 0", bad_scale,
+  list.embedded_case("scale_0", "A.2 scale", bad_scale,
                      replaced(embedded(), kStep, 3, {0x01, 0x00, 0x00}));
-  list.embedded_case("positions_infinite", "BITSTREAM 2: positions must be finite",
-                     "the header's positions are not finite",
+  list.embedded_case("positions_infinite", "A.2 scale", "the header's positions are not finite",
                      replaced(embedded(), kStep, 3, {0x00, 0x6f, 0xff}));
-  list.embedded_case("origin_33_bits", "BITSTREAM 2: origin has 32 bits",
-                     "the header's origin is out of range",
+  list.embedded_case("origin_33_bits", "A.2 origin", "the header's origin is out of range",
                      replaced(embedded(), kOrigin, 1, {0x80, 0x80, 0x80, 0x80, 0x10}));
-  list.embedded_case("number_of_6_bytes", "BITSTREAM 2: varint of 1 to 5 bytes", malformed,
+  list.embedded_case("number_of_6_bytes", "A.2 varint", malformed,
                      replaced(embedded(), kOrigin, 1, {0x81, 0x80, 0x80, 0x80, 0x80, 0x01}));
-  list.embedded_case("origin_not_shortest", "BITSTREAM 2: shortest form of a varint", malformed,
+  list.embedded_case("origin_not_shortest", "A.2 varint", malformed,
                      replaced(embedded(), kOrigin, 1, {0x8f, 0x00}));
 }
 
 void add_counts(BrokenList& list) {
   const char* const bad_faces = "the header's face count is out of range";
-  list.embedded_case("vertices_not_shortest", "BITSTREAM 2: shortest form of a varint",
-                     "the header has a malformed number",
+  list.embedded_case("vertices_not_shortest", "A.2 varint", "the header has a malformed number",
                      replaced(embedded(), kVertices, 1, {0x84, 0x00}));
-  list.embedded_case("vertices_2", "BITSTREAM 2: vertex_count",
-                     "the header has fewer than 3 base vertices",
+  list.embedded_case("vertices_2", "A.2 counts", "the header has fewer than 3 base vertices",
                      replaced(embedded(), kVertices, 2, {2, 2}));
-  list.embedded_case("vertices_beyond_3F", "BITSTREAM 2: vertex_count",
+  list.embedded_case("vertices_beyond_3F", "A.2 counts",
                      "the header has more base vertices than base faces can use",
                      replaced(embedded(), kVertices, 2, {4, 5}));
-  list.embedded_case("faces_0", "BITSTREAM 2: excess_faces", bad_faces,
-                     replaced(embedded(), kExcess, 1, {7}));
+  list.embedded_case("faces_0", "A.2 counts", bad_faces, replaced(embedded(), kExcess, 1, {7}));
   list.embedded_case(
-      "faces_2_30", "BITSTREAM 2: excess_faces", bad_faces,
+      "faces_2_30", "A.2 counts", bad_faces,
       replaced(embedded(), kVertices, 2, {0x82, 0x80, 0x80, 0x80, 0x02, 0}));  // V = 2^29 + 2
   // 2^29 faces of 14 levels: 2^57 vertices.
-  list.embedded_case("beyond_limits", "BITSTREAM 2: limits of the decoder's own",
-                     "the stream has more vertices than the limit",
+  list.embedded_case("beyond_limits", "A.2 limits", "the stream has more vertices than the limit",
                      replaced(replaced(embedded(), kVertices, 2, {0x82, 0x80, 0x80, 0x80, 0x01, 0}),
                               kDepth, 1, {0x2e}));
 }
@@ -198,7 +192,7 @@ Bytes bound_to(const Base& base) {
 }
 
 void add_bases(BrokenList& list) {
-  const char* const rule = "BITSTREAM 2: base_hash";
+  const char* const rule = "A.2 hash";
   const char* const other = "the base mesh given is not the one that the stream was made for";
   const Base base = external_base(octahedron());
   list.external_case("hash", rule, other, base, replaced(external(), kHash + 1, 1, {0xff}));
@@ -211,31 +205,31 @@ void add_bases(BrokenList& list) {
   turned.topology.triangles[2] = {turned.topology.triangles[2][1], turned.topology.triangles[2][2],
                                   turned.topology.triangles[2][0]};
   list.external_case("base_turned", rule, other, turned, external());
-  list.external_case("other_levels", "README levels: the same as in the payload's header",
+  list.external_case("other_levels", "README levels",
                      "the stream has 1 levels where 2 were announced", base, external(), 2);
-  list.external_case("embedded_for_base", "BITSTREAM 2: one with its own where another is given",
+  list.external_case("embedded_for_base", "A.2 base",
                      "the stream has a base mesh of its own, yet one was given", base, embedded());
-  list.embedded_case("external_without_base", "BITSTREAM 2: where no base is at hand",
+  list.embedded_case("external_without_base", "A.2 base",
                      "the stream has no base mesh of its own and none was given", external());
   // The hash is right, so it is the base that breaks a rule.
   const Base fins{"three_at_an_edge",
                   {5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}, {}, {}},
                   {base.positions.begin(), base.positions.begin() + 15}};
-  list.external_case("base_three_at_an_edge", "BITSTREAM 4: an edge has at most two faces",
-                     "base face 2 is the third at one edge", fins, bound_to(fins), 0);
+  list.external_case("base_three_at_an_edge", "A.4 base", "base face 2 is the third at one edge",
+                     fins, bound_to(fins), 0);
   Base flipped = base;
   flipped.name = "face_turned_over";
   std::swap(flipped.topology.triangles[2][0], flipped.topology.triangles[2][1]);
-  list.external_case(
-      "base_face_turned_over", "BITSTREAM 4: faces run through an edge in different directions",
-      "base face 6 is oriented against its neighbour", flipped, bound_to(flipped), 0);
+  list.external_case("base_face_turned_over", "A.4 base",
+                     "base face 6 is oriented against its neighbour", flipped, bound_to(flipped),
+                     0);
 }
 
 void add_connectivity(BrokenList& list) {
-  const char* const rule_1 = "BASE_CONNECTIVITY invalid 1: vertices";
-  const char* const rule_2 = "BASE_CONNECTIVITY invalid 2: action not allowed";
-  const char* const rule_3 = "BASE_CONNECTIVITY invalid 3: edges";
-  const char* const rule_4 = "BASE_CONNECTIVITY invalid 4: fans";
+  const char* const rule_1 = "A.12 vertices";
+  const char* const rule_2 = "A.12 action";
+  const char* const rule_3 = "A.13 edge";
+  const char* const rule_4 = "A.13 fan";
   const char* const cannot = "base connectivity: a gate joins where it cannot";
   const char* const fans = "base connectivity: a vertex has more than one fan of triangles";
   const char* const sides = "base connectivity: an edge has more than one triangle on a side";
@@ -252,11 +246,9 @@ void add_connectivity(BrokenList& list) {
   list.connectivity_case("edge_twice_open", rule_3, sides, 4, 3, "110101");
   list.connectivity_case("two_fans", rule_4, fans, 6, 6, "0010110100110");
   list.connectivity_case("two_fans_open", rule_4, fans, 6, 3, "1111100010");
-  list.connectivity_case("vertex_twice", "BASE_CONNECTIVITY: oriented 2-manifold", twice, 8, 10,
-                         "0101010011000011010101");
-  list.connectivity_case("vertex_twice_open", "BASE_CONNECTIVITY: oriented 2-manifold", twice, 6, 5,
-                         "11111000000110101");
-  list.connectivity_case("boundary_not_announced", "BASE_CONNECTIVITY invalid 5: has_boundary",
+  list.connectivity_case("vertex_twice", "A.13 corners", twice, 8, 10, "0101010011000011010101");
+  list.connectivity_case("vertex_twice_open", "A.13 corners", twice, 6, 5, "11111000000110101");
+  list.connectivity_case("boundary_not_announced", "A.13 boundary",
                          "base connectivity: a closed base mesh has boundary edges", 3, 1, "0");
 }
 
@@ -280,7 +272,7 @@ Bytes tags_without_tag(bool is_external) {
 }
 
 void add_tags(BrokenList& list) {
-  const char* const rule = "BITSTREAM 2: sharp tags must be there if the header says so";
+  const char* const rule = "A.6.1 tags";
   const char* const complaint = "the header announces sharp tags, but there are none";
   list.embedded_case("no_tag", rule, complaint, tags_without_tag(false));
   list.external_case("no_tag_external", rule, complaint, external_base(octahedron()),

@@ -30,8 +30,8 @@ Small streams of every sort, and what they decode to: with these a decoder of
 * **streams**: `name`, `file`, `base` (null, or the file of an external base), `levels` (as the
   extension object says it), `shows` (what it is there for), `prefixes` (`byteLength`, and the file
   `expected`).
-* **broken**: the same fields, the `rule` of the specification that the stream breaks, and what this
-  project's decoder complains of. A decoder must answer *broken* to each; the wording is its own.
+* **broken**: the same fields, the `rule` that the stream breaks, by its name in section A.8 of
+  [BITSTREAM.md](../BITSTREAM.md), and what this project's decoder complains of. A decoder must answer *broken* to each; the wording is its own.
   `levels` is null where there is no external base.
 * **files**: `file`, the `codes` that a validator finds ([VALIDATION.md](../VALIDATION.md), each as
   often as it is found, in any order), and the `exit` code of `zerotree validate`.
@@ -43,16 +43,19 @@ An expected file holds
   as far as the bytes determine them), `triangles`, `creases` (numbers of base edges) and `corners`
   (numbers of base vertices). An external base is known from the first byte on, and has creases
   and corners when its tags are there;
-* `details`: per level `normal`, `tangent1` and `tangent2`, the `value` of section 5 of
-  [BITSTREAM.md](../BITSTREAM.md) of each cell in order of its index, absent ones included; empty
+* `details`: per level `normal`, `tangent1` and `tangent2`, the `value` (section A.5 of
+  [BITSTREAM.md](../BITSTREAM.md)) of each cell in order of its index, absent ones included; empty
   where `base` is null or there are no levels;
 * `positions`: limit positions at the finest level in the numbering of
   [RECONSTRUCTION.md](../RECONSTRUCTION.md), null where `base` is null;
-* `normals`: of some streams; null at creases and corners.
+* `normals`: of some streams; null at creases inside the surface, at corners and where the tangents
+  vanish.
 
-Details are integers and must be equal; creases and corners are sets. Positions, of the base and of
-the surface, may differ by 1e-5 of the diagonal of the box around the expected ones, normals by 1e-3
-(length of the difference). The bytes may be fed in pieces of any size.
+Numbers with a fraction are the shortest decimals of f32 values, as in bases. Details are integers
+and must be equal, and so must the positions of the base; creases and corners are sets. Positions
+may differ from the expected ones by as much as section B.9 of
+[RECONSTRUCTION.md](../RECONSTRUCTION.md) says, normals by 1e-3 (length of the difference). The
+bytes may be fed in pieces of any size.
 )";
 
 Bytes bytes_of(const std::string& text) {

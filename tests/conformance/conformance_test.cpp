@@ -12,6 +12,7 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -187,6 +188,21 @@ TEST(runtime, BrokenStreamsAreBrokenForTheReasonStated) {
       EXPECT_EQ(zt_reason(decoder.get()), broken["complaint"].get<std::string>());
     }
   }
+}
+
+// The table of section A.8, and what is broken on purpose, name the same rules.
+TEST(rules, AreThoseOfTheSpecification) {
+  const Bytes text = read_file(kSpec / "BITSTREAM.md");
+  std::istringstream page(std::string(text.begin(), text.end()));
+  std::set<std::string> stated, broken;
+  bool is_there = false;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("## ")) is_there = line.starts_with("## A.8 ");
+    const bool is_row = line.starts_with("| A.") || line.starts_with("| README");
+    if (is_there && is_row) stated.insert(line.substr(2, line.find(" |", 2) - 2));
+  }
+  for (const json& entry : list_of("broken")) broken.insert(entry["rule"]);
+  EXPECT_EQ(broken, stated);
 }
 
 struct Verdict {

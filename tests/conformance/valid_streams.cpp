@@ -196,9 +196,10 @@ void add_contexts(CaseList& list) {
   list.add(make_case("one_point", {"every context of the positions", "levels 0"}, one_point(),
                      Cuts::whole));
   list.add(all_ones());
+  // Finer, the two sheets lie on each other and frames beside the base vertices are rounding (B.9).
   list.embedded("pillow", {"valence 2"},
                 {"pillow", {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0.5}}, {{0, 1, 2}, {2, 1, 0}}}, {}, {}},
-                {.detail_bits = {6, 4}}, Cuts::some);
+                {.levels = 1, .detail_bits = {6}}, Cuts::some);
 }
 
 void add_origins(CaseList& list) {
