@@ -192,10 +192,23 @@ StreamCase all_ones() {
   return one;
 }
 
+/// One triangle whose last decision needs no more than the byte before the last.
+StreamCase early_end() {
+  StreamCase early{"early_end", {"done one byte before the end", "levels 0"}, 0, {}, {}, {}, false};
+  early.bytes = {0x5a, 0x54, 0x01, 0x00, 0x80, 0x00, 0x00, 0x3c, 0x80, 0x00,
+                 0x00, 0x00, 0x03, 0x01, 0x4b, 0xff, 0xff, 0x34, 0xa9};
+  early.prefixes = {17, 18, 19};
+  return early;
+}
+
 void add_contexts(CaseList& list) {
   list.add(make_case("one_point", {"every context of the positions", "levels 0"}, one_point(),
                      Cuts::whole));
   list.add(all_ones());
+  list.add(early_end());
+  list.embedded("large_weight", {"area weight at its cap: coarse details far longer than the base"},
+                base_shape("tetrahedron"),
+                {.levels = 2, .finest_step = 0x1p-3, .detail_bits = {11, 6}}, Cuts::some);
   // Finer, the two sheets lie on each other and frames beside the base vertices are rounding (B.9).
   list.embedded("pillow", {"valence 2"},
                 {"pillow", {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0.5}}, {{0, 1, 2}, {2, 1, 0}}}, {}, {}},
