@@ -223,6 +223,19 @@ void add_bases(BrokenList& list) {
   list.external_case("base_face_turned_over", "A.4 base",
                      "base face 6 is oriented against its neighbour", flipped, bound_to(flipped),
                      0);
+  const auto first_points = [&](std::ptrdiff_t count) {
+    return std::vector<float>(base.positions.begin(), base.positions.begin() + 3 * count);
+  };
+  const Base bow{"two_fans_at_a_vertex", {5, {{0, 1, 2}, {0, 3, 4}}, {}, {}}, first_points(5)};
+  list.external_case("base_two_fans", "A.4 base",
+                     "the base mesh given: a vertex has more than one fan of triangles", bow,
+                     bound_to(bow), 0);
+  const Base spare{"vertex_without_triangle", {4, {{0, 1, 3}}, {}, {}}, first_points(4)};
+  list.external_case("base_unused_vertex", "A.4 base",
+                     "the base mesh given: a vertex is in no triangle", spare, bound_to(spare), 0);
+  const Base beyond{"corner_beyond", {3, {{0, 1, 3}}, {}, {}}, first_points(3)};
+  list.external_case("base_corner_beyond", "A.4 base",
+                     "base face 0 names a vertex that does not exist", beyond, bound_to(beyond), 0);
 }
 
 void add_connectivity(BrokenList& list) {
@@ -237,7 +250,8 @@ void add_connectivity(BrokenList& list) {
   list.connectivity_case("too_few_vertices_for_seed", rule_1,
                          "base connectivity: there are too few vertices", 5, 5, "00111");
   list.connectivity_case("vertices_not_made", rule_1,
-                         "base connectivity: there are too many vertices", 5, 4, "00111");
+                         "base connectivity: fewer vertices are made than announced", 5, 4,
+                         "00111");
   list.connectivity_case("join_dead_node", rule_2, cannot, 7, 10, "001100010");
   list.connectivity_case("join_missing_node", rule_2, cannot, 7, 10, "000011");
   list.connectivity_case("join_own_node", rule_2, cannot, 7, 10, "000001");

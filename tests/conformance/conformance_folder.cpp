@@ -31,8 +31,9 @@ Small streams of every sort, and what they decode to: with these a decoder of
   extension object says it), `shows` (what it is there for), `prefixes` (`byteLength`, and the file
   `expected`).
 * **broken**: the same fields, the `rule` that the stream breaks, by its name in section A.8 of
-  [BITSTREAM.md](../BITSTREAM.md), and what this project's decoder complains of. A decoder must answer *broken* to each; the wording is its own.
-  `levels` is null where there is no external base.
+  [BITSTREAM.md](../BITSTREAM.md), and what this project's decoder complains of. A decoder must
+  answer *broken* to each, except where the rule is *A.2 limits* and its limits are larger; the
+  wording is its own. `levels` is null where there is no external base.
 * **files**: `file`, the `codes` that a validator finds ([VALIDATION.md](../VALIDATION.md), each as
   often as it is found, in any order), and the `exit` code of `zerotree validate`.
 

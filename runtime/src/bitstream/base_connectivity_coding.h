@@ -145,7 +145,7 @@ class BaseConnectivityCoder {
       border_.apply(a, action);
     }
     topology.vertex_count = border_.vertex_count();
-    if (topology.vertex_count != counts_.vertices) return {"there are too many vertices"};
+    if (topology.vertex_count != counts_.vertices) return {"fewer vertices are made than announced"};
     return {};
   }
 

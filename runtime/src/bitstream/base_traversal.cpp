@@ -223,6 +223,19 @@ ConnectivityStatus check_base_topology(const BaseTopology& topology) {
   return status;
 }
 
+ConnectivityStatus check_base_fans(const BaseTopology& topology,
+                                   const std::vector<BaseEdge>& edges) {
+  std::vector<std::uint32_t> opposites(3 * topology.triangles.size(), kNone);
+  for (const BaseEdge& edge : edges) {
+    if (edge.faces[1] == kNone) continue;
+    const std::uint32_t h = 3 * edge.faces[0] + edge.local[0];
+    const std::uint32_t o = 3 * edge.faces[1] + edge.local[1];
+    opposites[h] = o;
+    opposites[o] = h;
+  }
+  return check_fans(topology, opposites);
+}
+
 BaseTraversal traverse_base(const BaseTopology& topology) {
   std::vector<std::uint32_t> opposites;
   find_opposites(topology, opposites);

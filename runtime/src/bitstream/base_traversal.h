@@ -42,6 +42,11 @@ ConnectivityStatus find_opposites(const BaseTopology& topology,
 /// ascending, unique and on interior edges and existing vertices. Safe on any content. O(n log n).
 ConnectivityStatus check_base_topology(const BaseTopology& topology);
 
+/// Whether every vertex of a `topology` that has these `edges` is used and has one fan of
+/// triangles. What number_base_edges accepts and this too is an oriented 2-manifold. O(n).
+ConnectivityStatus check_base_fans(const BaseTopology& topology,
+                                   const std::vector<BaseEdge>& edges);
+
 /// Grows a region over each component in the order of their first triangles, from that triangle and
 /// its first corner. Only for a topology that passes check_base_topology. O(n log n).
 BaseTraversal traverse_base(const BaseTopology& topology);

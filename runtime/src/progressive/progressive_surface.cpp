@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "bitstream/base_edges.h"
+#include "bitstream/base_traversal.h"
 #include "lattice/surface_measures.h"
 #include "surface/surface_synthesis.h"
 
@@ -35,6 +36,8 @@ void ProgressiveSurface::check_external_base(const bitstream::Limits& limits) {
   const std::size_t edges = external_edges_.size();
   if (!numbered.error.empty()) return fail(numbered.error);
   if (edges == 0) return fail("the base mesh given has no triangle");
+  const auto fans = bitstream::check_base_fans(external_->topology, external_edges_);
+  if (!fans.ok()) return fail(std::string("the base mesh given: ") + fans.problem);
   if (external_->positions.size() != 3 * std::size_t{external_->topology.vertex_count})
     return fail("the base mesh given has not three coordinates per vertex");
   if (external_->levels < 0 || external_->levels > limits.max_levels)
