@@ -6,6 +6,7 @@
 #include "bitstream/stream_header.h"
 #include "gltf/glb_container.h"
 #include "gltf/progressive_reader.h"
+#include "gltf/structure_check.h"
 #include "validate/payload_check.h"
 
 namespace zerotree::validate {
@@ -58,9 +59,9 @@ void validate_mesh(GltfDocument& document, std::size_t mesh, const ValidateOptio
 
 void validate_gltf(const std::filesystem::path& path, std::vector<std::uint8_t> file,
                    const ValidateOptions& options, ValidationReport& report) {
-  GltfDocument document(path, std::move(file));
+  GltfDocument document(path, std::move(file), report.issues);
+  gltf::check_structure(document, report.issues);
   read_asset_info(document, report);
-  if (document.is_truncated()) report.issues.push_back({IssueCode::glb_truncated, "", ""});
   const std::vector<std::size_t> meshes = gltf::progressive_meshes(document, report.issues);
   if (meshes.empty()) report.issues.push_back({IssueCode::extension_absent, "", ""});
   for (std::size_t mesh : meshes) validate_mesh(document, mesh, options, report);
@@ -99,6 +100,7 @@ ValidationReport validate_file(const std::filesystem::path& path, const Validate
   } catch (const IssueFound& found) {
     report.issues.push_back(found.issue());
   }
+  gltf::remove_repeated(report.issues);
   return report;
 }
 
