@@ -34,6 +34,12 @@ std::uint64_t known(std::uint64_t value) {
   return value == kNoIndex ? 0 : value;
 }
 
+bool is_index(const JsonCursor& place) {
+  if (!place.exists() || !place.value().is_number()) return false;
+  const double number = place.value().get<double>();
+  return number >= 0 && number == std::floor(number);
+}
+
 std::string bytes_text(std::uint64_t count) {
   return std::to_string(count) + " bytes";
 }
@@ -138,7 +144,7 @@ LinkedAccessor AccessorCheck::link(std::size_t index) {
     accessor.max = read_bounds(place.member("max"), accessor);
   }
   accessor.view = integer_or(checked, "bufferView", kNoIndex);
-  if (!checked.contains("bufferView") && checked.contains("byteOffset"))
+  if (!is_index(place.member("bufferView")) && checked.contains("byteOffset"))
     add(place.member("byteOffset"), IssueCode::unsatisfied_dependency, "bufferView");
   const json& view = element_or_null(core_, "bufferViews", accessor.view);
   accessor.byte_stride = known(integer_or(view, "byteStride", 0));
@@ -207,7 +213,8 @@ bool AccessorCheck::check_place(const LinkedAccessor& accessor, const JsonCursor
   else if (length - accessor.byte_offset < accessor.element_size ||
            (length - accessor.byte_offset - accessor.element_size) / stride < accessor.count - 1)
     add(place, IssueCode::accessor_too_long, detail);
-  return issues_.size() == before && fitting_views_[accessor.view];
+  return issues_.size() == before && fitting_views_[accessor.view] &&
+         stride % accessor.component_size == 0;
 }
 
 bool AccessorCheck::is_readable(const JsonCursor& buffer) const {

@@ -112,7 +112,7 @@ class ChunkReader {
       return;
     }
     // JSON that is cut off cannot be read.
-    if (type == kJsonChunk && (length == 0 || data.size() < length)) return;
+    if (type == kJsonChunk && data.size() < length) return;
     has_one = true;
     if (type == kBinaryChunk) {
       chunks_.binary = data;

@@ -75,6 +75,15 @@ float component(const std::uint8_t* bytes, std::uint64_t type) {
   return type == kUnsignedShort ? as_float<std::uint16_t>(bytes) : as_float<float>(bytes);
 }
 
+// 0 if `view` states none.
+std::uint64_t stride_of(const JsonCursor& view) {
+  const JsonCursor stride = view.member("byteStride");
+  const std::uint64_t value = stride.unsigned_integer_or(0);
+  if (stride.exists() && (value < 4 || value > 252))
+    stride.fail(IssueCode::value_not_in_range, "4 to 252 bytes are expected");
+  return value;
+}
+
 bool is_true(const JsonCursor& flag) {
   return flag.exists() && flag.value() == true;
 }
@@ -127,6 +136,10 @@ GltfDocument::GltfDocument(std::filesystem::path path, std::vector<std::uint8_t>
                            Issues& issues)
     : path_(std::move(path)), file_(std::move(file)) {
   parse(issues);
+  const auto asset = json_.find("asset");
+  // A missing version is one of many things that a check of all properties finds.
+  if (asset == json_.end() || !asset->is_object() || !asset->contains("version")) return;
+  if ((*asset)["version"].is_string()) check_version(root().member("asset").member("version"));
 }
 
 GltfDocument::GltfDocument(std::filesystem::path path, std::vector<std::uint8_t> file)
@@ -135,6 +148,7 @@ GltfDocument::GltfDocument(std::filesystem::path path, std::vector<std::uint8_t>
   parse(issues);
   const Issue* wrong = first_error(issues);
   if (wrong != nullptr && !is_truncated_) throw IssueFound(*wrong);
+  check_version(root().member("asset").member("version"));
 }
 
 void GltfDocument::parse(Issues& issues) {
@@ -147,7 +161,6 @@ void GltfDocument::parse(Issues& issues) {
     is_truncated_ = chunks.is_truncated;
   }
   json_ = parse_json(text);
-  check_version(root().member("asset").member("version"));
 }
 
 std::optional<std::span<const std::uint8_t>> GltfDocument::stored(std::uint64_t index) {
@@ -202,12 +215,14 @@ std::span<const std::uint8_t> GltfDocument::buffer_part(const JsonCursor& place,
   const JsonCursor buffer = place.member("buffer").resolve(root().member("buffers"));
   const std::uint64_t buffer_length = buffer.member("byteLength").unsigned_integer();
   if (length == 0) place.member("byteLength").fail(IssueCode::value_not_in_range, "it is 0");
+  if (buffer_length == 0)
+    buffer.member("byteLength").fail(IssueCode::value_not_in_range, "it is 0");
   // Neither sum overflows: JsonCursor's integers end at 2^53.
   if (offset + length > buffer_length)
-    place.member(offset >= buffer_length ? "byteOffset" : "byteLength")
-        .fail(IssueCode::buffer_view_too_long, "bytes " + std::to_string(offset) + " to " +
-                                                   std::to_string(offset + length) + " of " +
-                                                   std::to_string(buffer_length));
+    throw IssueFound({IssueCode::buffer_view_too_long,
+                      place.pointer() + (offset >= buffer_length ? "/byteOffset" : "/byteLength"),
+                      "bytes " + std::to_string(offset) + " to " + std::to_string(offset + length) +
+                          " of " + std::to_string(buffer_length)});
   const auto bytes = buffer_bytes(place.member("buffer").index());
   const std::size_t begin = std::min<std::uint64_t>(bytes.size(), offset);
   const std::size_t end = std::min<std::uint64_t>(bytes.size(), offset + length);
@@ -222,7 +237,7 @@ ViewBytes GltfDocument::view_bytes(const JsonCursor& index) {
   const JsonCursor view = this->view(index);
   const std::uint64_t length = view.member("byteLength").unsigned_integer();
   return {buffer_part(view, view.member("byteOffset").unsigned_integer_or(0), length), length,
-          view.member("byteStride").unsigned_integer_or(0)};
+          stride_of(view)};
 }
 
 ViewBytes GltfDocument::unpacked_bytes(const JsonCursor& index) {
@@ -247,7 +262,7 @@ ViewBytes GltfDocument::unpacked_bytes(const JsonCursor& index) {
   if (view.member("byteLength").unsigned_integer() != bytes.size())
     packing.fail(IssueCode::packing_broken, "it unpacks to " + std::to_string(bytes.size()) +
                                                 " bytes, not to the bufferView's byteLength");
-  return {bytes, bytes.size(), view.member("byteStride").unsigned_integer_or(0)};
+  return {bytes, bytes.size(), stride_of(view)};
 }
 
 GltfDocument::Elements GltfDocument::elements(const JsonCursor& accessor,

@@ -33,9 +33,10 @@ struct ViewBytes {
 class GltfDocument {
  public:
   /// Parses `file`, the content of `path`, as GLB or glTF JSON. What is wrong with a GLB container
-  /// but leaves its JSON readable goes to `issues`. The asset's major version is 2.
+  /// but leaves its JSON readable goes to `issues`. A version that is there is 2.something.
   GltfDocument(std::filesystem::path path, std::vector<std::uint8_t> file, Issues& issues);
-  /// The same; throws for the first error in the container unless it is that the file was cut off.
+  /// The same; throws for the first error in the container unless it is that the file was cut off,
+  /// and if there is no version.
   GltfDocument(std::filesystem::path path, std::vector<std::uint8_t> file);
   GltfDocument(const GltfDocument&) = delete;
   GltfDocument& operator=(const GltfDocument&) = delete;

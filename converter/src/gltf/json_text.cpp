@@ -15,32 +15,31 @@ using nlohmann::json;
   throw IssueFound({code, std::move(pointer), std::move(detail)});
 }
 
-// Watches the parser: keys of the open objects, and the place it is at.
-class NestingWatch {
+// Sees the text before it becomes a document: keys of the open objects, and the place it is at. The
+// parser with a callback would do both in one pass, but looks at all elements of an array each time
+// one ends.
+class NestingWatch : public nlohmann::json_sax<json> {
  public:
-  void operator()(json::parse_event_t event, const json& value) {
-    switch (event) {
-      case json::parse_event_t::object_start:
-      case json::parse_event_t::array_start:
-        count_element();
-        if (open_.size() == kMostNesting)
-          fail(IssueCode::invalid_json, "",
-               "nested more than " + std::to_string(kMostNesting) + " deep");
-        open_.emplace_back().is_object = event == json::parse_event_t::object_start;
-        break;
-      case json::parse_event_t::object_end:
-      case json::parse_event_t::array_end:
-        open_.pop_back();
-        break;
-      case json::parse_event_t::key:
-        open_.back().at = value.get_ref<const std::string&>();
-        if (!open_.back().keys.insert(open_.back().at).second)
-          fail(IssueCode::json_key_repeated, pointer(), "");
-        break;
-      case json::parse_event_t::value:
-        count_element();
-        break;
-    }
+  bool null() override { return count_element(); }
+  bool boolean(bool) override { return count_element(); }
+  bool number_integer(number_integer_t) override { return count_element(); }
+  bool number_unsigned(number_unsigned_t) override { return count_element(); }
+  bool number_float(number_float_t, const string_t&) override { return count_element(); }
+  bool string(string_t&) override { return count_element(); }
+  bool binary(binary_t&) override { return count_element(); }
+  bool start_object(std::size_t) override { return open(true); }
+  bool start_array(std::size_t) override { return open(false); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+
+  bool key(string_t& key) override {
+    open_.back().at = key;
+    if (!open_.back().keys.insert(key).second) fail(IssueCode::json_key_repeated, pointer(), "");
+    return true;
+  }
+
+  bool parse_error(std::size_t, const std::string&, const json::exception& error) override {
+    fail(IssueCode::invalid_json, "", error.what());
   }
 
  private:
@@ -51,9 +50,24 @@ class NestingWatch {
     std::set<std::string> keys;
   };
 
-  void count_element() {
-    if (open_.empty() || open_.back().is_object) return;
-    open_.back().at = std::to_string(open_.back().elements++);
+  bool count_element() {
+    if (!open_.empty() && !open_.back().is_object)
+      open_.back().at = std::to_string(open_.back().elements++);
+    return true;
+  }
+
+  bool open(bool is_object) {
+    count_element();
+    if (open_.size() == kMostNesting)
+      fail(IssueCode::invalid_json, "",
+           "nested more than " + std::to_string(kMostNesting) + " deep");
+    open_.emplace_back().is_object = is_object;
+    return true;
+  }
+
+  bool close() {
+    open_.pop_back();
+    return true;
   }
 
   std::string pointer() const {
@@ -75,15 +89,8 @@ json parse_json(std::string_view text) {
     fail(IssueCode::invalid_json, "",
          "byte " + std::to_string(zero) + " is 0: JSON is padded with spaces");
   NestingWatch watch;
-  json root;
-  try {
-    root = json::parse(text, [&](int, json::parse_event_t event, json& value) {
-      watch(event, value);
-      return true;
-    });
-  } catch (const json::exception& error) {
-    fail(IssueCode::invalid_json, "", error.what());
-  }
+  json::sax_parse(text, &watch);
+  json root = json::parse(text);
   if (!root.is_object()) fail(IssueCode::type_mismatch, "", "an object is expected");
   return root;
 }

@@ -101,9 +101,8 @@ class PrimitiveCheck {
         has_view && accessor.byte_stride == 0 && accessor.element_size % 4 != 0;
     if ((accessor.byte_offset != kNoIndex && accessor.byte_offset % 4 != 0) || may_straddle)
       add(IssueCode::mesh_primitive_accessor_unaligned, pointer, "");
-    if (!vertices_)
-      vertices_ = accessor.count;
-    else if (*vertices_ != accessor.count)
+    if (!vertices_ && accessor.count != 0) vertices_ = accessor.count;
+    if (vertices_ && *vertices_ != accessor.count)
       add(IssueCode::mesh_primitive_unequal_accessor_count, pointer,
           std::to_string(accessor.count) + " and " + std::to_string(*vertices_));
     if (!has_view || accessor.byte_stride != 0 || shares_[number]) return;

@@ -160,15 +160,25 @@ void refuse_normalized(const GltfDocument& document, const JsonCursor& positions
     accessor.fail(IssueCode::accessor_unsupported, "positions must not be normalized");
 }
 
+// glTF-Validator's code, where attributes name their accessors.
+void require_index(const JsonCursor& attribute) {
+  const nlohmann::json& value = attribute.value();
+  if (!value.is_number() || value.get<double>() < 0 ||
+      value.get<double>() != std::floor(value.get<double>()))
+    attribute.fail(IssueCode::invalid_index, "");
+}
+
 // Triangles of all primitives in their order; the primitives share one array of positions.
 void read_base(GltfDocument& document, const JsonCursor& mesh, ProgressiveAsset& asset) {
   const JsonCursor primitives = primitives_of(mesh);
   const JsonCursor first = primitives.element(0).member("attributes");
   if (!first.value().is_object() || !first.value().contains("POSITION"))
     first.fail(IssueCode::base_unsupported, "there is no POSITION");
+  require_index(first.member("POSITION"));
   refuse_normalized(document, first.member("POSITION"));
   asset.control_points = document.read_vectors(first.member("POSITION"));
   if (first.member("NORMAL").exists()) {
+    require_index(first.member("NORMAL"));
     asset.normals = document.read_vectors(first.member("NORMAL"));
     if (asset.normals.size() != asset.control_points.size())
       first.member("NORMAL").fail(IssueCode::mesh_primitive_unequal_accessor_count,
@@ -183,6 +193,7 @@ void read_base(GltfDocument& document, const JsonCursor& mesh, ProgressiveAsset&
     if (primitive.member("mode").unsigned_integer_or(kTriangles) != kTriangles)
       primitive.member("mode").fail(IssueCode::base_unsupported, "the mode is not TRIANGLES");
     const JsonCursor other = primitive.member("attributes").member("POSITION");
+    if (other.exists()) require_index(other);
     if (!other.exists() || other.index() != positions)
       primitive.fail(IssueCode::base_unsupported, "its POSITION is not that of the first one");
     const JsonCursor place = primitive.member("indices");

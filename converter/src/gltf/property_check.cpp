@@ -42,11 +42,11 @@ class PropertyChecker {
     json right = json::object();
     for (const Property& property : type.properties) {
       const JsonCursor value = place.member(property.name);
+      const bool is_there = value.exists() && !value.value().is_null();
       json checked = value.exists() ? check_value(value, property) : json();
-      const bool is_null = value.exists() && value.value().is_null();
-      if (property.is_required && (!value.exists() || is_null))
+      if (property.is_required && !is_there)
         report(place, IssueCode::undefined_property, json(property.name).dump());
-      if (value.exists() && property.kind != PropertyKind::any)
+      if (is_there && property.kind != PropertyKind::any)
         right[std::string(property.name)] = std::move(checked);
     }
     for (const auto& [key, value] : place.value().items())
@@ -155,8 +155,7 @@ class PropertyChecker {
     if (place.value().empty()) return report(place, IssueCode::empty_entity, "");
     json right = json::object();
     for (const auto& [key, value] : place.value().items()) {
-      json index = check_index_element(place.member(key), property);
-      if (!index.is_null()) right[key] = std::move(index);
+      right[key] = check_index_element(place.member(key), property);
     }
     return right;
   }

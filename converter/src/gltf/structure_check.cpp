@@ -53,7 +53,11 @@ void check_extension_lists(const json& core, Issues& issues) {
 }
 
 void check_minor_version(const JsonCursor& root, Issues& issues) {
-  const std::string version = root.member("asset").member("version").string();
+  const auto asset = root.value().find("asset");
+  if (asset == root.value().end() || !asset->is_object()) return;
+  const auto place = asset->find("version");
+  if (place == asset->end() || !place->is_string()) return;
+  const auto& version = place->get_ref<const std::string&>();
   const std::string minor = version.substr(version.find('.') + 1);
   if (minor.find_first_not_of('0') != minor.npos)
     issues.push_back({IssueCode::unknown_asset_minor_version, "/asset/version", version});

@@ -40,10 +40,12 @@ void validate_stream(std::span<const std::uint8_t> file, const ValidateOptions& 
 void read_asset_info(const GltfDocument& document, ValidationReport& report) {
   const gltf::JsonCursor asset = document.root().member("asset");
   report.version = asset.member("version").string();
-  if (asset.member("generator").exists()) report.generator = asset.member("generator").string();
+  const gltf::JsonCursor generator = asset.member("generator");
+  if (generator.exists() && generator.value().is_string()) report.generator = generator.string();
   const gltf::JsonCursor used = document.root().member("extensionsUsed");
   for (std::size_t i = 0; i < used.size(); ++i)
-    report.extensions_used.push_back(used.element(i).string());
+    if (used.element(i).value().is_string())
+      report.extensions_used.push_back(used.element(i).string());
 }
 
 void validate_mesh(GltfDocument& document, std::size_t mesh, const ValidateOptions& options,
