@@ -21,21 +21,22 @@ code and by a JSON pointer to its place. Defects of a GLB container have an empt
 
 It checks, in this order:
 
-1. **The container and the JSON**: chunks of a GLB, the syntax of the JSON, keys that come twice. What
-   leaves no JSON to read ends the validation.
+1. **The container and the JSON**: chunks of a GLB, the syntax of the JSON, keys that come twice.
+   What leaves no JSON to read ends the validation.
 2. **The glTF document**: properties of the asset, scenes, nodes, meshes, materials, accessors,
    bufferViews and buffers; indices that name nothing; loops of nodes; whether accessors fit into
    their bufferViews and these into their buffers; forms, alignment and values of accessors.
    Animations, cameras, images, samplers, skins, textures and morph targets are not looked into:
    the extension does not rely on them.
-3. **The extension object** of each progressive mesh: [the schema](schema/README.md) and the rules that
-   a schema cannot state.
-4. **The base mesh**: an oriented manifold in the form that the extension allows, unpacked where it is
-   compressed.
-5. **The payload**: the validator decodes it at every entry of `prefixes` and in full, compares its header
-   with the extension object and the base mesh, and looks at the surface of each of these prefixes.
+3. **The extension object** of each progressive mesh: [the schema](schema/README.md) and the rules
+   that a schema cannot state.
+4. **The base mesh**: an oriented manifold in the form that the extension allows, unpacked where it
+   is compressed.
+5. **The payload**: the validator decodes it at every entry of `prefixes` and in full, compares its
+   header with the extension object and the base mesh, and looks at the surface of each of these
+   prefixes.
 
-A validator states limits beyond which it does not decode, and reports a payload beyond them as an
+A validator states limits beyond which it does not decode, and reports what lies beyond them as an
 error: what was not checked is not valid.
 
 | severity | number in reports | meaning |
@@ -76,8 +77,8 @@ std::string validation_document() {
   return kIntroduction + ("## Codes of this extension\n\n" + table(Origin::zerotree)) +
          "\n## Codes of glTF\n\n"
          "Codes, pointers and severities are those of Khronos' glTF-Validator. A report names a "
-         "code "
-         "once\nper place; glTF-Validator may name it once per value.\n\n" +
+         "code\n"
+         "once per place; glTF-Validator may name it once per value.\n\n" +
          table(Origin::gltf_validator);
 }
 
