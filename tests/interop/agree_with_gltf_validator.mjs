@@ -1,10 +1,10 @@
 #!/usr/bin/env node
 // Do `zerotree validate` and glTF-Validator find the same errors?
 // Usage: node agree_with_gltf_validator.mjs ZEROTREE SAMPLE.glb FOLDER VALIDATION.md
-// FOLDER takes the broken files made out of SAMPLE.glb, a small right file with normals. Of codes that
-// both tools know (VALIDATION.md and the npm package's ISSUES.md list them), each error and warning of
-// one must be one of the other, with the same JSON pointer, and each code must come up. Exit code 0
-// if that holds.
+// FOLDER takes the broken files made out of SAMPLE.glb, a small right file with normals. Of codes
+// that both tools know (VALIDATION.md and the npm package's ISSUES.md list them), each error and
+// warning of one must be one of the other, with the same JSON pointer, and each code must come up.
+// Exit code 0 if that holds.
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -58,15 +58,16 @@ function zerotreeErrors(zerotree, files, folder, shared) {
   rmSync(reportPath, { force: true });
   const run = spawnSync(zerotree, ['validate', ...paths, '-o', reportPath],
                         { encoding: 'utf8', maxBuffer: 1 << 28 });
-  if (run.status !== 1) throw new Error(`zerotree validate ended with ${run.status}: ${run.stderr}`);
+  if (run.status !== 1)
+    throw new Error(`zerotree validate ended with ${run.status}: ${run.stderr}`);
   const reports = [JSON.parse(readFileSync(reportPath, 'utf8'))].flat();
   if (reports.length !== files.length)
     throw new Error(`${reports.length} reports of ${files.length} files`);
   return reports.map((report) => errorsOf(report, shared));
 }
 
-// What comes of the numbers of a bufferView when these are wrong: glTF-Validator goes on with others,
-// zerotree does not look at the data.
+// What comes of the numbers of a bufferView when these are wrong: glTF-Validator goes on with
+// others, zerotree does not look at the data.
 function isConsequence(error, file, common) {
   return /^\/bufferViews\/\d/.test(file.pointer ?? '') && error.startsWith('ACCESSOR_') &&
       common.some((e) => e.includes(' /bufferViews/'));
@@ -79,8 +80,10 @@ function difference(a, b) {
 async function main() {
   const [zerotree, sample, folder, validationDocument] = process.argv.slice(2);
   if (!validationDocument)
-    throw new Error('usage: agree_with_gltf_validator.mjs ZEROTREE SAMPLE.glb FOLDER VALIDATION.md');
-  if (!existsSync(PACKAGE)) throw new Error(`the npm packages are missing: run "npm ci" in ${here}`);
+    throw new Error('usage: agree_with_gltf_validator.mjs ZEROTREE SAMPLE.glb FOLDER ' +
+                    'VALIDATION.md');
+  if (!existsSync(PACKAGE))
+    throw new Error(`the npm packages are missing: run "npm ci" in ${here}`);
   const validator = (await import('gltf-validator')).default;
   const shared = sharedCodes(validationDocument);
   const base = readFileSync(sample);

@@ -30,9 +30,9 @@ export function joinGlb(json, binary) {
   return container([jsonChunk(JSON.stringify(json)), chunk('BIN\0', binary)]);
 }
 
-// Each: name, the change, and what both tools must find, as "CODE pointer", with " (warning)" if it is one. `a` is the accessor of
-// the indices, `p` of the positions, `n` of the normals; `views` are the vertices', the triangles'
-// and the payload's.
+// Each: name, what both tools must find, as "CODE pointer" and " (warning)" if it is one, and the
+// change. `a` is the accessor of the indices, `p` of the positions, `n` of the normals; `views` are
+// the vertices', the triangles' and the payload's.
 const VERTICES = 0, TRIANGLES = 1, PAYLOAD = 2;
 const POSITIONS = '/meshes/0/primitives/0/attributes/POSITION';
 const NORMALS = '/meshes/0/primitives/0/attributes/NORMAL';
@@ -108,7 +108,8 @@ const JSON_DEFECTS = [
   ['accessor without count', 'UNDEFINED_PROPERTY /accessors/1', (j, { p }) => { delete p.count; }],
   ['accessor of no elements', 'VALUE_NOT_IN_RANGE /accessors/1/count',
    (j, { p }) => { p.count = 0; }],
-  ['accessor too long', 'ACCESSOR_TOO_LONG /accessors/1', (j, { p, n }) => { p.count = n.count = 5; }],
+  ['accessor too long', 'ACCESSOR_TOO_LONG /accessors/1',
+   (j, { p, n }) => { p.count = n.count = 5; }],
   ['accessor far too long', 'ACCESSOR_TOO_LONG /accessors/1', (j, { p }) => { p.count = 1e15; }],
   ['accessor begins behind its view', 'ACCESSOR_TOO_LONG /accessors/1/byteOffset',
    (j, { p }) => { p.byteOffset = 1000; }],

@@ -7,8 +7,9 @@ Usage: check_schema.py examples
 
 examples: the schemas are schemas, those in valid/ pass, and each in invalid/ has one defect.
 files: the extension objects of all .glb and .gltf files in the folders pass.
-agreement: where the schema finds a defect in an example, `zerotree validate` reports an error at the
-same place of SAMPLE.glb with that extension object, written to FOLDER; and none where it does not.
+agreement: where the schema finds a defect in an example, `zerotree validate` reports an error at
+the same place of SAMPLE.glb with that extension object, written to FOLDER; and none where it does
+not.
 Exit code 0 if that holds.
 """
 import json
@@ -70,8 +71,9 @@ def check_examples(validator):
         if defect_places(validator, extension):
             failures.append(f"{path}: wrong at {defect_places(validator, extension)}")
     for path, extension in examples("invalid"):
-        if len(defect_places(validator, extension)) != 1:
-            failures.append(f"{path}: one defect expected, not {defect_places(validator, extension)}")
+        places = defect_places(validator, extension)
+        if len(places) != 1:
+            failures.append(f"{path}: one defect expected, not {places}")
     return failures
 
 
@@ -103,7 +105,8 @@ def write_sample(sample, extension, path):
     root["meshes"][0]["extensions"][EXTENSION] = extension
     text = json.dumps(root).encode()
     text += b" " * (-len(text) % 4)
-    head = struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(data) - end, len(text), 0x4E4F534A)
+    size = 20 + len(text) + len(data) - end
+    head = struct.pack("<4sIII4s", b"glTF", 2, size, len(text), b"JSON")
     path.write_bytes(head + text + data[end:])
 
 
