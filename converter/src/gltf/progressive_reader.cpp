@@ -91,18 +91,10 @@ Eigen::Vector3f read_corner(const JsonCursor& corner) {
 }
 
 void read_bounds(const JsonCursor& bounds, ProgressiveAsset& asset) {
-  bounds.value();
   asset.bounds_min = read_corner(bounds.member("min"));
   asset.bounds_max = read_corner(bounds.member("max"));
   if ((asset.bounds_min.array() > asset.bounds_max.array()).any())
     bounds.fail(IssueCode::value_not_in_range, "min is greater than max");
-}
-
-void read_levels(const JsonCursor& levels, ProgressiveAsset& asset) {
-  const std::uint64_t value = levels.unsigned_integer();
-  if (value > static_cast<std::uint64_t>(kMaxLevels))
-    levels.fail(IssueCode::value_not_in_range, "levels go from 0 to " + std::to_string(kMaxLevels));
-  asset.levels = static_cast<int>(value);
 }
 
 void check_attributes(const JsonCursor& attributes) {
@@ -111,23 +103,11 @@ void check_attributes(const JsonCursor& attributes) {
     attributes.fail(IssueCode::attributes_unsupported, attributes.value().dump());
 }
 
-void read_diagonal(const JsonCursor& diagonal, ProgressiveAsset& asset) {
-  asset.source_diagonal = diagonal.number();
-  if (!(asset.source_diagonal > 0))
-    diagonal.fail(IssueCode::value_not_in_range, "a length above 0 is expected");
-}
-
 void read_prefixes(const JsonCursor& prefixes, ProgressiveAsset& asset) {
-  prefixes.value();
-  if (prefixes.size() == 0) prefixes.fail(IssueCode::empty_entity, "");
   for (std::size_t i = 0; i < prefixes.size(); ++i) {
     const JsonCursor place = prefixes.element(i);
-    if (!place.value().is_object())
-      prefixes.fail(IssueCode::array_type_mismatch, "element " + std::to_string(i));
     const PrefixEntry entry{place.member("byteLength").unsigned_integer(),
                             place.member("geometricError").number()};
-    if (entry.geometric_error < 0)
-      place.member("geometricError").fail(IssueCode::value_not_in_range, "errors are at least 0");
     if (i > 0 && entry.byte_length <= asset.prefixes.back().byte_length)
       place.member("byteLength").fail(IssueCode::prefix_order, std::to_string(entry.byte_length));
     if (i > 0 && entry.geometric_error > asset.prefixes.back().geometric_error)
@@ -236,17 +216,22 @@ std::optional<ProgressiveAsset> read_parts(GltfDocument& document, std::size_t m
   const JsonCursor place = document.root().member("meshes").element(mesh);
   const JsonCursor extension = extension_of(place);
   if (!collect(issues, [&] { extension.member("levels"); })) return std::nullopt;
-  checked_object(document.root(), extension, kExtensionType, issues);
-  bool decodes = true;
+  // What follows relies on types and ranges only if the schema's rules are kept.
+  Issues defects;
+  checked_object(document.root(), extension, kExtensionType, defects);
+  const bool keeps_schema = first_error(defects) == nullptr;
+  issues.insert(issues.end(), defects.begin(), defects.end());
+  bool decodes = keeps_schema;
   const auto step = [&](auto read) { decodes = collect(issues, read) && decodes; };
-  step([&] { read_levels(extension.member("levels"), asset); });
-  step([&] { check_attributes(extension.member("attributes")); });
-  step([&] { read_bounds(extension.member("bounds"), asset); });
-  step([&] { read_diagonal(extension.member("sourceDiagonal"), asset); });
-  step([&] { read_prefixes(extension.member("prefixes"), asset); });
+  if (keeps_schema) {
+    asset.levels = static_cast<int>(extension.member("levels").unsigned_integer());
+    asset.source_diagonal = extension.member("sourceDiagonal").number();
+    step([&] { check_attributes(extension.member("attributes")); });
+    step([&] { read_bounds(extension.member("bounds"), asset); });
+    step([&] { read_prefixes(extension.member("prefixes"), asset); });
+  }
   step([&] { read_payload(document, extension.member("bufferView"), asset); });
   step([&] { read_base(document, place, asset); });
-  step([&] { asset.placement = placement_of(document.root(), mesh); });
   if (!decodes) return std::nullopt;
   collect(issues, [&] {
     if (place.member("name").exists()) asset.name = place.member("name").string();
@@ -320,6 +305,7 @@ ProgressiveAsset read_progressive(const std::filesystem::path& path) {
                       path.string() + ": /meshes: " + std::to_string(meshes.size()) +
                           " meshes are progressive: split the file, one mesh can be read");
         asset = read_mesh(document, meshes.front(), issues);
+        if (asset) asset->placement = placement_of(document.root(), meshes.front());
       }))
     fail(issues.back());
   // A payload that is cut off decodes like any prefix; everything else would decode wrongly.
