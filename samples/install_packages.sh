@@ -11,7 +11,7 @@ run_packages=(
   libtbb-dev libembree-dev libdraco-dev libmeshoptimizer-dev libstb-dev zlib1g-dev
   fonts-dejavu-core libgtest-dev)
 test_packages=(
-  assimp-utils draco gnuplot-nox python3 clang-format libbenchmark-dev
+  assimp-utils draco gnuplot-nox python3 python3-jsonschema clang-format libbenchmark-dev
   libjansson-dev libogre-1.12-dev xvfb xauth libgl1-mesa-dri
   make pre-commit python3-yaml)
 

@@ -34,41 +34,134 @@ std::uint64_t padding_of(std::uint64_t length) {
   return (4 - length % 4) % 4;
 }
 
+std::string chunk_name(std::uint32_t type) {
+  if (type == kJsonChunk) return "the JSON chunk";
+  return type == kBinaryChunk ? "the binary chunk" : "a chunk of type " + std::to_string(type);
+}
+
+// Walks through the chunks as glTF-Validator does: a defect is noted and the walk goes on.
+class ChunkReader {
+ public:
+  ChunkReader(std::span<const std::uint8_t> file, Issues& issues) : file_(file), issues_(issues) {}
+
+  GlbChunks read() {
+    read_header();
+    chunks_.is_truncated = file_.size() < length_;
+    std::size_t at = kHeaderSize;
+    for (int index = 0; at != file_.size(); ++index) {
+      if (at == length_) {
+        add(IssueCode::glb_extra_data, std::to_string(file_.size() - at) + " bytes");
+        break;
+      }
+      if (file_.size() - at < kChunkHeaderSize) {
+        add(IssueCode::glb_unexpected_end_of_chunk_header, "at byte " + std::to_string(at));
+        break;
+      }
+      at = read_chunk(at, index);
+    }
+    if (at == file_.size() && !ends_inside_chunk_ && at != length_)
+      add(IssueCode::glb_length_mismatch,
+          std::to_string(at) + " bytes instead of " + std::to_string(length_));
+    if (!has_json_) throw IssueFound(last_error());
+    return chunks_;
+  }
+
+ private:
+  void read_header() {
+    if (file_.size() < kHeaderSize)
+      fail(IssueCode::glb_unexpected_end_of_header,
+           "it has " + std::to_string(file_.size()) + " bytes");
+    if (read_u32(file_, 4) != 2)
+      fail(IssueCode::glb_invalid_version, "version " + std::to_string(read_u32(file_, 4)));
+    length_ = read_u32(file_, 8);
+    if (length_ <= kHeaderSize)
+      add(IssueCode::glb_length_too_small, std::to_string(length_) + " bytes");
+  }
+
+  // Returns where the next chunk begins.
+  std::size_t read_chunk(std::size_t at, int index) {
+    const std::uint64_t length = read_u32(file_, at);
+    const std::uint32_t type = read_u32(file_, at + 4);
+    const std::string what = chunk_name(type) + ", " + std::to_string(length) + " bytes";
+    at += kChunkHeaderSize;
+    if (padding_of(length) != 0) add(IssueCode::glb_chunk_length_unaligned, what);
+    if (at + length > length_) add(IssueCode::glb_chunk_too_big, what);
+    if (index == 0 && type != kJsonChunk) add(IssueCode::glb_unexpected_first_chunk, what);
+    if (index > 1 && type == kBinaryChunk && !chunks_.has_binary)
+      add(IssueCode::glb_unexpected_bin_chunk, what);
+    const auto data = file_.subspan(at, std::min<std::uint64_t>(length, file_.size() - at));
+    if (data.size() < length) {
+      ends_inside_chunk_ = true;
+      add(IssueCode::glb_unexpected_end_of_chunk_data,
+          what + ", of which " + std::to_string(data.size()) + " are there");
+    }
+    take_chunk(type, length, data, what);
+    return at + data.size();
+  }
+
+  void take_chunk(std::uint32_t type, std::uint64_t length, std::span<const std::uint8_t> data,
+                  const std::string& what) {
+    if (type != kJsonChunk && type != kBinaryChunk) {
+      add(IssueCode::glb_unknown_chunk_type, what);
+      return;
+    }
+    if (type == kJsonChunk && length == 0) add(IssueCode::glb_empty_chunk, what);
+    bool& has_one = type == kJsonChunk ? has_json_ : chunks_.has_binary;
+    if (has_one) {
+      add(IssueCode::glb_duplicate_chunk, what);
+      return;
+    }
+    // JSON that is cut off cannot be read.
+    if (type == kJsonChunk && data.size() < length) return;
+    has_one = true;
+    if (type == kBinaryChunk) {
+      chunks_.binary = data;
+      chunks_.binary_length = length;
+    } else {
+      chunks_.json = {reinterpret_cast<const char*>(data.data()), data.size()};
+    }
+  }
+
+  // Once per code: a hostile file may consist of nothing but bad chunks.
+  void add(IssueCode code, std::string detail) {
+    for (const Issue& issue : issues_)
+      if (issue.code == code) return;
+    issues_.push_back({code, "", std::move(detail)});
+  }
+
+  // It goes on its way as an exception, so it must not be in the list, too.
+  Issue last_error() {
+    for (std::size_t i = issues_.size(); i-- > 0;)
+      if (is_error(issues_[i])) {
+        Issue issue = issues_[i];
+        issues_.erase(issues_.begin() + static_cast<std::ptrdiff_t>(i));
+        return issue;
+      }
+    return {IssueCode::glb_unexpected_end_of_chunk_header, "", "there is no JSON chunk"};
+  }
+
+  std::span<const std::uint8_t> file_;
+  Issues& issues_;
+  GlbChunks chunks_;
+  std::uint64_t length_ = 0;
+  bool has_json_ = false, ends_inside_chunk_ = false;
+};
+
 }  // namespace
 
 bool is_glb(std::span<const std::uint8_t> file) {
   return file.size() >= 4 && read_u32(file, 0) == kMagic;
 }
 
+GlbChunks split_glb(std::span<const std::uint8_t> file, Issues& issues) {
+  return ChunkReader(file, issues).read();
+}
+
 GlbChunks split_glb(std::span<const std::uint8_t> file) {
-  if (file.size() < kHeaderSize + kChunkHeaderSize)
-    fail(IssueCode::glb_truncated,
-         "it ends inside its header, at byte " + std::to_string(file.size()));
-  if (read_u32(file, 4) != 2)
-    fail(IssueCode::glb_malformed,
-         "container version " + std::to_string(read_u32(file, 4)) + " instead of 2");
-  const std::uint64_t length = read_u32(file, 8);
-  const std::uint64_t json_end = kHeaderSize + kChunkHeaderSize + read_u32(file, 12);
-  if (read_u32(file, 16) != kJsonChunk)
-    fail(IssueCode::glb_malformed, "the first chunk is not JSON");
-  if (json_end > length) fail(IssueCode::glb_malformed, "the JSON chunk is longer than the file");
-  if (json_end > file.size())
-    fail(IssueCode::glb_truncated, "it has " + std::to_string(file.size()) + " of the " +
-                                       std::to_string(json_end) + " bytes up to the end of JSON");
-  GlbChunks chunks;
-  chunks.is_truncated = file.size() < length;
-  // Bytes beyond the stated length are not part of the container.
-  file = file.first(static_cast<std::size_t>(std::min<std::uint64_t>(length, file.size())));
-  const std::size_t json_begin = kHeaderSize + kChunkHeaderSize;
-  chunks.json = {reinterpret_cast<const char*>(file.data()) + json_begin,
-                 static_cast<std::size_t>(json_end) - json_begin};
-  if (file.size() < json_end + kChunkHeaderSize) return chunks;
-  if (read_u32(file, json_end + 4) != kBinaryChunk) return chunks;
-  chunks.binary_length = read_u32(file, json_end);
-  if (json_end + kChunkHeaderSize + chunks.binary_length > length)
-    fail(IssueCode::glb_malformed, "the binary chunk is longer than the file");
-  const auto rest = file.subspan(json_end + kChunkHeaderSize);
-  chunks.binary = rest.first(std::min<std::size_t>(rest.size(), chunks.binary_length));
+  Issues issues;
+  const GlbChunks chunks = split_glb(file, issues);
+  const Issue* wrong = first_error(issues);
+  if (wrong != nullptr && !chunks.is_truncated) throw IssueFound(*wrong);
   return chunks;
 }
 

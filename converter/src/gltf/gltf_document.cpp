@@ -12,6 +12,7 @@
 
 #include "gltf/base_layout.h"
 #include "gltf/glb_container.h"
+#include "gltf/json_text.h"
 #include "gltf/packed_view.h"
 #include "gltf/percent_encoding.h"
 #include "mesh/error.h"
@@ -26,8 +27,14 @@ constexpr std::uint64_t kUnsignedShort = 5123;
 constexpr std::uint64_t kUnsignedInt = 5125;
 constexpr std::uint64_t kFloat = 5126;
 
+// 0 for a number that is no type.
+std::uint64_t component_type_of(const JsonCursor& component_type) {
+  const double number = component_type.number();
+  return number >= kByte && number <= kFloat ? component_type.unsigned_integer() : 0;
+}
+
 std::uint64_t index_size(const JsonCursor& component_type) {
-  switch (component_type.unsigned_integer()) {
+  switch (component_type_of(component_type)) {
     case kUnsignedByte:
       return 1;
     case kUnsignedShort:
@@ -68,8 +75,29 @@ float component(const std::uint8_t* bytes, std::uint64_t type) {
   return type == kUnsignedShort ? as_float<std::uint16_t>(bytes) : as_float<float>(bytes);
 }
 
+// 0 if `view` states none.
+std::uint64_t stride_of(const JsonCursor& view) {
+  const JsonCursor stride = view.member("byteStride");
+  const std::uint64_t value = stride.unsigned_integer_or(0);
+  if (stride.exists() && (value < 4 || value > 252))
+    stride.fail(IssueCode::value_not_in_range, "4 to 252 bytes are expected");
+  return value;
+}
+
 bool is_true(const JsonCursor& flag) {
   return flag.exists() && flag.value() == true;
+}
+
+void check_version(const JsonCursor& version) {
+  const std::string text = version.string();
+  const std::size_t point = text.find('.');
+  const auto is_number = [](std::string_view digits) {
+    return !digits.empty() && digits.find_first_not_of("0123456789") == digits.npos;
+  };
+  if (point == text.npos || !is_number(std::string_view(text).substr(0, point)) ||
+      !is_number(std::string_view(text).substr(point + 1)))
+    version.fail(IssueCode::pattern_mismatch, "\"" + text + "\" is not like 2.0");
+  if (text.substr(0, point) != "2") version.fail(IssueCode::unknown_asset_major_version, text);
 }
 
 bool has_scheme(std::string_view uri) {
@@ -104,98 +132,112 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path) {
   return bytes;
 }
 
+GltfDocument::GltfDocument(std::filesystem::path path, std::vector<std::uint8_t> file,
+                           Issues& issues)
+    : path_(std::move(path)), file_(std::move(file)) {
+  parse(issues);
+  const auto asset = json_.find("asset");
+  // A missing version is one of many things that a check of all properties finds.
+  if (asset == json_.end() || !asset->is_object() || !asset->contains("version")) return;
+  if ((*asset)["version"].is_string()) check_version(root().member("asset").member("version"));
+}
+
 GltfDocument::GltfDocument(std::filesystem::path path, std::vector<std::uint8_t> file)
     : path_(std::move(path)), file_(std::move(file)) {
+  Issues issues;
+  parse(issues);
+  const Issue* wrong = first_error(issues);
+  if (wrong != nullptr && !is_truncated_) throw IssueFound(*wrong);
+  check_version(root().member("asset").member("version"));
+}
+
+void GltfDocument::parse(Issues& issues) {
   std::string_view text(reinterpret_cast<const char*>(file_.data()), file_.size());
   is_binary_ = is_glb(file_);
   if (is_binary_) {
-    const GlbChunks chunks = split_glb(file_);
+    const GlbChunks chunks = split_glb(file_, issues);
     text = chunks.json;
-    binary_chunk_ = chunks.binary;
+    if (chunks.has_binary) binary_chunk_ = chunks.binary;
     is_truncated_ = chunks.is_truncated;
   }
-  try {
-    json_ = nlohmann::json::parse(text);
-  } catch (const nlohmann::json::exception& error) {
-    throw IssueFound({IssueCode::json_invalid, "", error.what()});
-  }
-  const std::string version = root().member("asset").member("version").string();
-  if (!version.starts_with("2."))
-    throw IssueFound({IssueCode::gltf_version_unsupported, "/asset/version", version});
+  json_ = parse_json(text);
+}
+
+std::optional<std::span<const std::uint8_t>> GltfDocument::stored(std::uint64_t index) {
+  const JsonCursor uri = root().member("buffers").element(index).member("uri");
+  if (uri.exists()) return load_uri(uri);
+  return index == 0 ? binary_chunk_ : std::nullopt;
+}
+
+std::optional<std::uint64_t> GltfDocument::stored_bytes(std::uint64_t index) {
+  const auto bytes = stored(index);
+  return bytes ? std::optional<std::uint64_t>(bytes->size()) : std::nullopt;
 }
 
 std::span<const std::uint8_t> GltfDocument::buffer_bytes(std::uint64_t index) {
   const JsonCursor buffer = root().member("buffers").element(index);
   const std::uint64_t length = buffer.member("byteLength").unsigned_integer();
-  const JsonCursor uri = buffer.member("uri");
-  std::span<const std::uint8_t> bytes = binary_chunk_;
-  if (uri.exists()) {
-    if (!loaded_.contains(index)) loaded_[index] = load_uri(uri);
-    bytes = loaded_[index];
-  } else if (!is_binary_ || index != 0) {
-    uri.fail(IssueCode::buffer_unreadable, "only the first buffer of a GLB has no uri");
-  }
-  return bytes.first(static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), length)));
+  const auto bytes = stored(index);
+  if (!bytes && is_binary_ && index == 0) buffer.fail(IssueCode::buffer_missing_glb_data, "");
+  if (!bytes)
+    buffer.fail(IssueCode::buffer_too_short, "only the first buffer of a GLB needs no uri");
+  return bytes->first(static_cast<std::size_t>(std::min<std::uint64_t>(bytes->size(), length)));
 }
 
-std::vector<std::uint8_t> GltfDocument::load_uri(const JsonCursor& uri) const {
+std::span<const std::uint8_t> GltfDocument::load_uri(const JsonCursor& uri) {
   const std::string text = uri.string();
-  if (tinygltf::IsDataURI(text)) {
+  if (text.starts_with("data:")) {
     std::vector<std::uint8_t> bytes;
     std::string mime_type;
-    if (!tinygltf::DecodeDataURI(&bytes, mime_type, text, 0, false))
-      uri.fail(IssueCode::buffer_unreadable, "the data URI holds no base64 data");
-    return bytes;
+    if (const auto known = loaded_.find(text); known != loaded_.end()) return known->second;
+    if (!tinygltf::IsDataURI(text) || !tinygltf::DecodeDataURI(&bytes, mime_type, text, 0, false))
+      uri.fail(IssueCode::invalid_uri, "the data URI holds no base64 data");
+    return loaded_[text] = std::move(bytes);
   }
   const std::filesystem::path relative =
       std::filesystem::path(percent_decoded(text)).lexically_normal();
   // What a hostile file names must not lead out of its folder.
   if (has_scheme(text) || relative.empty() || relative.is_absolute() || *relative.begin() == "..")
-    uri.fail(IssueCode::buffer_unreadable,
-             "\"" + text + "\" names no file in the folder of the glTF file");
+    uri.fail(IssueCode::io_error, "\"" + text + "\" names no file in the folder of the glTF file");
+  std::string key = "/";  // as no data URI begins
+  key += relative.string();
+  if (const auto known = loaded_.find(key); known != loaded_.end()) return known->second;
   try {
-    return read_file(path_.parent_path() / relative);
+    return loaded_[key] = read_file(path_.parent_path() / relative);
   } catch (const Error& error) {
-    uri.fail(IssueCode::buffer_unreadable, error.what());
+    uri.fail(IssueCode::io_error, error.what());
   }
 }
 
 std::span<const std::uint8_t> GltfDocument::buffer_part(const JsonCursor& place,
                                                         std::uint64_t offset,
                                                         std::uint64_t length) {
-  const std::uint64_t buffer = place.member("buffer").unsigned_integer();
-  const JsonCursor buffers = root().member("buffers");
-  if (buffer >= buffers.size())
-    place.member("buffer").fail(
-        IssueCode::index_unresolved,
-        "buffer " + std::to_string(buffer) + " of " + std::to_string(buffers.size()));
-  const std::uint64_t buffer_length =
-      buffers.element(buffer).member("byteLength").unsigned_integer();
+  const JsonCursor buffer = place.member("buffer").resolve(root().member("buffers"));
+  const std::uint64_t buffer_length = buffer.member("byteLength").unsigned_integer();
+  if (length == 0) place.member("byteLength").fail(IssueCode::value_not_in_range, "it is 0");
+  if (buffer_length == 0)
+    buffer.member("byteLength").fail(IssueCode::value_not_in_range, "it is 0");
   // Neither sum overflows: JsonCursor's integers end at 2^53.
-  if (length == 0 || offset + length > buffer_length)
-    place.fail(IssueCode::view_out_of_buffer, "bytes " + std::to_string(offset) + " to " +
-                                                  std::to_string(offset + length) + " of " +
-                                                  std::to_string(buffer_length));
-  const auto bytes = buffer_bytes(buffer);
+  if (offset + length > buffer_length)
+    throw IssueFound({IssueCode::buffer_view_too_long,
+                      place.pointer() + (offset >= buffer_length ? "/byteOffset" : "/byteLength"),
+                      "bytes " + std::to_string(offset) + " to " + std::to_string(offset + length) +
+                          " of " + std::to_string(buffer_length)});
+  const auto bytes = buffer_bytes(place.member("buffer").index());
   const std::size_t begin = std::min<std::uint64_t>(bytes.size(), offset);
   const std::size_t end = std::min<std::uint64_t>(bytes.size(), offset + length);
   return bytes.subspan(begin, end - begin);
 }
 
 JsonCursor GltfDocument::view(const JsonCursor& index) const {
-  const std::uint64_t number = index.unsigned_integer();
-  const JsonCursor views = root().member("bufferViews");
-  if (number >= views.size())
-    index.fail(IssueCode::index_unresolved,
-               "bufferView " + std::to_string(number) + " of " + std::to_string(views.size()));
-  return views.element(number);
+  return index.resolve(root().member("bufferViews"));
 }
 
 ViewBytes GltfDocument::view_bytes(const JsonCursor& index) {
   const JsonCursor view = this->view(index);
   const std::uint64_t length = view.member("byteLength").unsigned_integer();
   return {buffer_part(view, view.member("byteOffset").unsigned_integer_or(0), length), length,
-          view.member("byteStride").unsigned_integer_or(0)};
+          stride_of(view)};
 }
 
 ViewBytes GltfDocument::unpacked_bytes(const JsonCursor& index) {
@@ -204,7 +246,7 @@ ViewBytes GltfDocument::unpacked_bytes(const JsonCursor& index) {
   if (!packing.exists()) return view_bytes(index);
   if (!lists("extensionsUsed", kPackingExtension))
     packing.fail(IssueCode::packing_broken, "extensionsUsed does not name the extension");
-  const std::uint64_t number = index.unsigned_integer();
+  const std::uint64_t number = index.index();
   if (!unpacked_.contains(number)) {
     // One at a time: many views may name the same few bytes, and each takes 64 times as much.
     unpacked_.clear();
@@ -218,15 +260,17 @@ ViewBytes GltfDocument::unpacked_bytes(const JsonCursor& index) {
   }
   const std::vector<std::uint8_t>& bytes = unpacked_[number];
   if (view.member("byteLength").unsigned_integer() != bytes.size())
-    view.member("byteLength")
-        .fail(IssueCode::property_value, "it unpacks to " + std::to_string(bytes.size()));
-  return {bytes, bytes.size(), view.member("byteStride").unsigned_integer_or(0)};
+    packing.fail(IssueCode::packing_broken, "it unpacks to " + std::to_string(bytes.size()) +
+                                                " bytes, not to the bufferView's byteLength");
+  return {bytes, bytes.size(), stride_of(view)};
 }
 
 GltfDocument::Elements GltfDocument::elements(const JsonCursor& accessor,
                                               std::uint64_t element_size) {
   if (accessor.member("sparse").exists())
     accessor.fail(IssueCode::accessor_unsupported, "it is sparse");
+  if (!accessor.member("bufferView").exists())
+    accessor.fail(IssueCode::accessor_unsupported, "it has no bufferView");
   const std::uint64_t offset = accessor.member("byteOffset").unsigned_integer_or(0);
   const std::uint64_t count = accessor.member("count").unsigned_integer();
   const ViewBytes view = unpacked_bytes(accessor.member("bufferView"));
@@ -236,15 +280,16 @@ GltfDocument::Elements GltfDocument::elements(const JsonCursor& accessor,
     packing.member("byteStride")
         .fail(IssueCode::packing_broken,
               "the accessor's elements lie " + std::to_string(stride) + " bytes apart");
-  if (count == 0) accessor.member("count").fail(IssueCode::property_value, "it is 0");
+  if (count == 0) accessor.member("count").fail(IssueCode::value_not_in_range, "it is 0");
   if (stride < element_size)
-    accessor.fail(IssueCode::accessor_unsupported, "its elements overlap: see byteStride");
+    accessor.fail(IssueCode::accessor_small_bytestride, std::to_string(stride) + " bytes");
   // Compared by division: stride times count may overflow.
   if (offset > view.length || view.length - offset < element_size ||
       (view.length - offset - element_size) / stride < count - 1)
-    accessor.fail(IssueCode::accessor_out_of_view, std::to_string(count) + " elements from byte " +
-                                                       std::to_string(offset) + " in a view of " +
-                                                       std::to_string(view.length) + " bytes");
+    (offset > view.length ? accessor.member("byteOffset") : accessor)
+        .fail(IssueCode::accessor_too_long, std::to_string(count) + " elements from byte " +
+                                                std::to_string(offset) + " in a view of " +
+                                                std::to_string(view.length) + " bytes");
   if (view.available.size() < offset + stride * (count - 1) + element_size)
     accessor.fail(IssueCode::buffer_too_short,
                   std::to_string(view.length - view.available.size()) + " bytes are missing");
@@ -265,8 +310,8 @@ void GltfDocument::require_quantisation(const JsonCursor& accessor) const {
 }
 
 std::vector<Eigen::Vector3f> GltfDocument::read_vectors(const JsonCursor& index) {
-  const JsonCursor accessor = root().member("accessors").element(index.unsigned_integer());
-  const std::uint64_t type = accessor.member("componentType").unsigned_integer();
+  const JsonCursor accessor = index.resolve(root().member("accessors"));
+  const std::uint64_t type = component_type_of(accessor.member("componentType"));
   const std::size_t size = component_size(type);
   if (accessor.member("type").string() != "VEC3" || size == 0)
     accessor.fail(IssueCode::accessor_unsupported, "vectors are VEC3");
@@ -279,13 +324,13 @@ std::vector<Eigen::Vector3f> GltfDocument::read_vectors(const JsonCursor& index)
       vectors[i][static_cast<Eigen::Index>(axis)] =
           component(from.bytes.data() + i * from.stride + axis * size, type) / divisor;
     if (!vectors[i].allFinite())
-      accessor.fail(IssueCode::base_value_not_finite, "element " + std::to_string(i));
+      accessor.fail(IssueCode::accessor_invalid_float, "element " + std::to_string(i));
   }
   return vectors;
 }
 
 std::vector<std::uint32_t> GltfDocument::read_indices(const JsonCursor& index) {
-  const JsonCursor accessor = root().member("accessors").element(index.unsigned_integer());
+  const JsonCursor accessor = index.resolve(root().member("accessors"));
   if (accessor.member("type").string() != "SCALAR")
     accessor.fail(IssueCode::accessor_unsupported, "indices are SCALAR");
   const std::uint64_t size = index_size(accessor.member("componentType"));

@@ -4,8 +4,10 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,7 +32,11 @@ struct ViewBytes {
 /// returned live as long as the document. Functions throw IssueFound for what is wrong with it.
 class GltfDocument {
  public:
-  /// Parses `file`, the content of `path`, as GLB or glTF JSON.
+  /// Parses `file`, the content of `path`, as GLB or glTF JSON. What is wrong with a GLB container
+  /// but leaves its JSON readable goes to `issues`. A version that is there is 2.something.
+  GltfDocument(std::filesystem::path path, std::vector<std::uint8_t> file, Issues& issues);
+  /// The same; throws for the first error in the container unless it is that the file was cut off,
+  /// and if there is no version.
   GltfDocument(std::filesystem::path path, std::vector<std::uint8_t> file);
   GltfDocument(const GltfDocument&) = delete;
   GltfDocument& operator=(const GltfDocument&) = delete;
@@ -40,9 +46,14 @@ class GltfDocument {
   bool is_binary() const { return is_binary_; }
   /// The GLB is shorter than its header states.
   bool is_truncated() const { return is_truncated_; }
+  /// Bytes that there are for buffer `index`, more or fewer than its byteLength; nothing if it has
+  /// no uri and is not the binary chunk.
+  std::optional<std::uint64_t> stored_bytes(std::uint64_t index);
 
   /// The view `index` names, as it lies in its buffer; `index` is the place of the number.
   ViewBytes view_bytes(const JsonCursor& index);
+  /// As view_bytes, but unpacked (EXT_meshopt_compression); lives until another view is unpacked.
+  ViewBytes unpacked_bytes(const JsonCursor& index);
   /// VEC3 values of the accessor that `index` names, all of them finite: floats, or with
   /// KHR_mesh_quantization integers. Packed views (EXT_meshopt_compression) are unpacked.
   std::vector<Eigen::Vector3f> read_vectors(const JsonCursor& index);
@@ -51,26 +62,28 @@ class GltfDocument {
 
  private:
   struct Elements;
+  void parse(Issues& issues);
+  std::optional<std::span<const std::uint8_t>> stored(std::uint64_t index);
   // The first bytes of buffer `index`, at most its byteLength.
   std::span<const std::uint8_t> buffer_bytes(std::uint64_t index);
   // `length` bytes from `offset` on of the buffer that `place` names in its member `buffer`.
   std::span<const std::uint8_t> buffer_part(const JsonCursor& place, std::uint64_t offset,
                                             std::uint64_t length);
-  // As view_bytes, but unpacked; lives until another view is unpacked.
-  ViewBytes unpacked_bytes(const JsonCursor& index);
   Elements elements(const JsonCursor& accessor, std::uint64_t element_size);
   JsonCursor view(const JsonCursor& index) const;
   bool lists(const char* list, const char* extension) const;
   void require_quantisation(const JsonCursor& accessor) const;
-  std::vector<std::uint8_t> load_uri(const JsonCursor& uri) const;
+  std::span<const std::uint8_t> load_uri(const JsonCursor& uri);
 
   std::filesystem::path path_;
   std::vector<std::uint8_t> file_;
   nlohmann::json json_;
   bool is_binary_ = false;
   bool is_truncated_ = false;
-  std::span<const std::uint8_t> binary_chunk_;
-  std::map<std::uint64_t, std::vector<std::uint8_t>> loaded_, unpacked_;
+  std::optional<std::span<const std::uint8_t>> binary_chunk_;
+  // By path, or by the text of a data URI: many buffers may name the same file.
+  std::map<std::string, std::vector<std::uint8_t>, std::less<>> loaded_;
+  std::map<std::uint64_t, std::vector<std::uint8_t>> unpacked_;
 };
 
 }  // namespace zerotree::gltf

@@ -47,7 +47,7 @@ std::vector<std::uint8_t> unpack_view(const JsonCursor& packing,
   if (filter.exists() && filter.string() != "NONE")
     filter.fail(IssueCode::accessor_unsupported, "filters round; a base mesh has none");
   if (out.stride == 0 || out.stride > kLargestStride)
-    packing.member("byteStride").fail(IssueCode::property_value, "1 to 256 bytes are expected");
+    packing.member("byteStride").fail(IssueCode::value_not_in_range, "1 to 256 bytes are expected");
   // Divided: the product of both may overflow.
   if (out.count == 0 || out.count > kMostExpansion * packed.size() / out.stride)
     packing.member("count").fail(IssueCode::packing_broken,

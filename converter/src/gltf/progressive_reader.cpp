@@ -1,11 +1,11 @@
 #include "gltf/progressive_reader.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string_view>
+#include <iterator>
 
 #include "gltf/packed_view.h"
+#include "gltf/property_check.h"
 #include "mesh/error.h"
 
 namespace zerotree::gltf {
@@ -14,9 +14,6 @@ namespace {
 constexpr std::uint64_t kTriangles = 4;
 // More than a decoder with its usual limits can take.
 constexpr std::size_t kMostBaseTriangles = std::size_t{1} << 24;
-constexpr std::array<std::string_view, 8> kProperties = {"attributes", "bounds",   "bufferView",
-                                                         "levels",     "prefixes", "sourceDiagonal",
-                                                         "extensions", "extras"};
 
 // Runs a step of reading; what it finds wrong becomes an issue. False if it did not come through.
 template <class Step>
@@ -36,8 +33,19 @@ JsonCursor extension_of(const JsonCursor& object) {
 
 bool lists_extension(const JsonCursor& list) {
   for (std::size_t i = 0; i < list.size(); ++i)
-    if (list.element(i).string() == kExtensionName) return true;
+    if (list.element(i).value() == kExtensionName) return true;
   return false;
+}
+
+// Those of `mesh`, all of them objects.
+JsonCursor primitives_of(const JsonCursor& mesh) {
+  const JsonCursor primitives = mesh.member("primitives");
+  primitives.value();
+  if (primitives.size() == 0) primitives.fail(IssueCode::empty_entity, "");
+  for (const nlohmann::json& primitive : primitives.value())
+    if (!primitive.is_object())
+      primitives.fail(IssueCode::array_type_mismatch, "objects are expected");
+  return primitives;
 }
 
 void check_misplaced(const JsonCursor& object, Issues& issues) {
@@ -57,14 +65,19 @@ void check_misplaced_everywhere(const JsonCursor& root, Issues& issues) {
 }
 
 Eigen::Vector3d read_vector(const JsonCursor& vector) {
-  if (vector.value().size() != 3 || !vector.value().is_array())
-    vector.fail(IssueCode::property_type, "an array of 3 numbers is expected");
+  vector.value();
+  if (vector.size() == 0) vector.fail(IssueCode::empty_entity, "");
+  if (vector.size() != 3)
+    vector.fail(IssueCode::array_length_not_in_list,
+                std::to_string(vector.size()) + " instead of 3");
   Eigen::Vector3d values;
   for (int k = 0; k < 3; ++k) {
     const JsonCursor number = vector.element(static_cast<std::uint64_t>(k));
+    if (!number.value().is_number())
+      vector.fail(IssueCode::array_type_mismatch, "element " + std::to_string(k));
     values[k] = number.number();
     if (!std::isfinite(static_cast<float>(values[k])))
-      number.fail(IssueCode::property_value, "beyond float's range");
+      number.fail(IssueCode::value_not_in_range, "beyond float's range");
   }
   return values;
 }
@@ -78,41 +91,23 @@ Eigen::Vector3f read_corner(const JsonCursor& corner) {
 }
 
 void read_bounds(const JsonCursor& bounds, ProgressiveAsset& asset) {
-  bounds.value();
   asset.bounds_min = read_corner(bounds.member("min"));
   asset.bounds_max = read_corner(bounds.member("max"));
   if ((asset.bounds_min.array() > asset.bounds_max.array()).any())
-    bounds.fail(IssueCode::property_value, "min is greater than max");
-}
-
-void read_levels(const JsonCursor& levels, ProgressiveAsset& asset) {
-  const std::uint64_t value = levels.unsigned_integer();
-  if (value > static_cast<std::uint64_t>(kMaxLevels))
-    levels.fail(IssueCode::property_value, "levels go from 0 to " + std::to_string(kMaxLevels));
-  asset.levels = static_cast<int>(value);
+    bounds.fail(IssueCode::value_not_in_range, "min is greater than max");
 }
 
 void check_attributes(const JsonCursor& attributes) {
   if (!attributes.exists()) return;
-  if (attributes.size() != 1 || attributes.element(0).string() != "POSITION")
-    attributes.fail(IssueCode::property_value, "this version carries exactly [\"POSITION\"]");
-}
-
-void read_diagonal(const JsonCursor& diagonal, ProgressiveAsset& asset) {
-  asset.source_diagonal = diagonal.number();
-  if (!(asset.source_diagonal > 0))
-    diagonal.fail(IssueCode::property_value, "a length above 0 is expected");
+  if (attributes.size() != 1 || attributes.element(0).value() != "POSITION")
+    attributes.fail(IssueCode::attributes_unsupported, attributes.value().dump());
 }
 
 void read_prefixes(const JsonCursor& prefixes, ProgressiveAsset& asset) {
-  prefixes.value();
-  if (prefixes.size() == 0) prefixes.fail(IssueCode::property_value, "it is empty");
   for (std::size_t i = 0; i < prefixes.size(); ++i) {
     const JsonCursor place = prefixes.element(i);
     const PrefixEntry entry{place.member("byteLength").unsigned_integer(),
                             place.member("geometricError").number()};
-    if (entry.geometric_error < 0)
-      place.member("geometricError").fail(IssueCode::property_value, "errors are at least 0");
     if (i > 0 && entry.byte_length <= asset.prefixes.back().byte_length)
       place.member("byteLength").fail(IssueCode::prefix_order, std::to_string(entry.byte_length));
     if (i > 0 && entry.geometric_error > asset.prefixes.back().geometric_error)
@@ -125,12 +120,11 @@ void read_payload(GltfDocument& document, const JsonCursor& index, ProgressiveAs
   const ViewBytes bytes = document.view_bytes(index);
   asset.payload_length = bytes.length;
   asset.payload.assign(bytes.available.begin(), bytes.available.end());
-  const JsonCursor view = document.root().member("bufferViews").element(index.unsigned_integer());
+  const JsonCursor view = index.resolve(document.root().member("bufferViews"));
   if (view.member("target").exists() || view.member("byteStride").exists() ||
       packing_of(view).exists())
     view.fail(IssueCode::payload_view_invalid, "");
-  const JsonCursor buffer =
-      document.root().member("buffers").element(view.member("buffer").unsigned_integer());
+  const JsonCursor buffer = view.member("buffer").resolve(document.root().member("buffers"));
   const std::uint64_t end = view.member("byteOffset").unsigned_integer_or(0) + bytes.length;
   const std::uint64_t buffer_length = buffer.member("byteLength").unsigned_integer();
   if (end != buffer_length)
@@ -140,42 +134,57 @@ void read_payload(GltfDocument& document, const JsonCursor& index, ProgressiveAs
 
 // The rounding of a division must not decide about the bits that the payload's hash covers.
 void refuse_normalized(const GltfDocument& document, const JsonCursor& positions) {
-  const JsonCursor accessor =
-      document.root().member("accessors").element(positions.unsigned_integer());
+  const JsonCursor accessor = positions.resolve(document.root().member("accessors"));
   const JsonCursor flag = accessor.member("normalized");
   if (flag.exists() && flag.value() != false)
     accessor.fail(IssueCode::accessor_unsupported, "positions must not be normalized");
 }
 
+// glTF-Validator's code, where attributes name their accessors.
+void require_index(const JsonCursor& attribute) {
+  const nlohmann::json& value = attribute.value();
+  if (!value.is_number() || value.get<double>() < 0 ||
+      value.get<double>() != std::floor(value.get<double>()))
+    attribute.fail(IssueCode::invalid_index, "");
+}
+
 // Triangles of all primitives in their order; the primitives share one array of positions.
 void read_base(GltfDocument& document, const JsonCursor& mesh, ProgressiveAsset& asset) {
-  const JsonCursor primitives = mesh.member("primitives");
+  const JsonCursor primitives = primitives_of(mesh);
   const JsonCursor first = primitives.element(0).member("attributes");
+  if (!first.value().is_object() || !first.value().contains("POSITION"))
+    first.fail(IssueCode::base_unsupported, "there is no POSITION");
+  require_index(first.member("POSITION"));
   refuse_normalized(document, first.member("POSITION"));
   asset.control_points = document.read_vectors(first.member("POSITION"));
   if (first.member("NORMAL").exists()) {
+    require_index(first.member("NORMAL"));
     asset.normals = document.read_vectors(first.member("NORMAL"));
     if (asset.normals.size() != asset.control_points.size())
-      first.member("NORMAL").fail(IssueCode::base_unsupported, "its count is not POSITION's");
+      first.member("NORMAL").fail(IssueCode::mesh_primitive_unequal_accessor_count,
+                                  "its count is not POSITION's");
   }
   if (asset.control_points.size() >= bitstream::kNone)
     first.member("POSITION").fail(IssueCode::base_unsupported, "it has too many vertices");
   asset.base.vertex_count = static_cast<std::uint32_t>(asset.control_points.size());
-  const std::uint64_t positions = first.member("POSITION").unsigned_integer();
+  const std::uint64_t positions = first.member("POSITION").index();
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     const JsonCursor primitive = primitives.element(i);
     if (primitive.member("mode").unsigned_integer_or(kTriangles) != kTriangles)
       primitive.member("mode").fail(IssueCode::base_unsupported, "the mode is not TRIANGLES");
-    if (primitive.member("attributes").member("POSITION").unsigned_integer() != positions)
-      primitive.fail(IssueCode::base_unsupported, "its POSITION is another accessor");
+    const JsonCursor other = primitive.member("attributes").member("POSITION");
+    if (other.exists()) require_index(other);
+    if (!other.exists() || other.index() != positions)
+      primitive.fail(IssueCode::base_unsupported, "its POSITION is not that of the first one");
     const JsonCursor place = primitive.member("indices");
+    if (!place.exists()) primitive.fail(IssueCode::base_unsupported, "it has no indices");
     const std::vector<std::uint32_t> indices = document.read_indices(place);
     if (indices.size() % 3 != 0)
       place.fail(IssueCode::base_unsupported, "the number of indices is no multiple of 3");
     for (std::uint32_t index : indices)
       if (index >= asset.base.vertex_count)
-        place.fail(IssueCode::base_index_out_of_range, "vertex " + std::to_string(index) + " of " +
-                                                           std::to_string(asset.base.vertex_count));
+        place.fail(IssueCode::accessor_index_oob, "vertex " + std::to_string(index) + " of " +
+                                                      std::to_string(asset.base.vertex_count));
     // Many primitives may name the same few bytes.
     if (asset.base.triangles.size() + indices.size() / 3 > kMostBaseTriangles)
       place.fail(IssueCode::base_unsupported,
@@ -190,7 +199,7 @@ Placement placement_of(const JsonCursor& root, std::size_t mesh) {
   const JsonCursor nodes = root.member("nodes");
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const JsonCursor node = nodes.element(i);
-    if (!node.member("mesh").exists() || node.member("mesh").unsigned_integer() != mesh) continue;
+    if (!node.member("mesh").exists() || node.member("mesh").index() != mesh) continue;
     const Eigen::Vector3d scale = read_vector(node.member("scale"), Eigen::Vector3d::Ones());
     const bool is_uniform = scale.x() > 0 && scale == Eigen::Vector3d::Constant(scale.x());
     if (!is_uniform || node.member("rotation").exists() || node.member("matrix").exists())
@@ -200,58 +209,29 @@ Placement placement_of(const JsonCursor& root, std::size_t mesh) {
   return {};
 }
 
-void check_unknown_properties(const JsonCursor& extension, Issues& issues) {
-  for (const auto& [key, value] : extension.value().items())
-    if (std::find(kProperties.begin(), kProperties.end(), key) == kProperties.end())
-      issues.push_back({IssueCode::property_unknown, extension.member(key).pointer(), ""});
-}
-
-}  // namespace
-
-std::vector<std::size_t> progressive_meshes(const GltfDocument& document, Issues& issues) {
-  const JsonCursor root = document.root();
-  std::vector<std::size_t> found;
-  collect(issues, [&] {
-    const JsonCursor meshes = root.member("meshes");
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
-      const JsonCursor mesh = meshes.element(i);
-      collect(issues, [&] {
-        if (extension_of(mesh).exists()) found.push_back(i);
-        const JsonCursor primitives = mesh.member("primitives");
-        for (std::size_t k = 0; k < primitives.size(); ++k)
-          check_misplaced(primitives.element(k), issues);
-      });
-    }
-  });
-  check_misplaced_everywhere(root, issues);
-  collect(issues, [&] {
-    const JsonCursor used = root.member("extensionsUsed");
-    if (!found.empty() && !lists_extension(used)) used.fail(IssueCode::extension_not_listed, "");
-  });
-  collect(issues, [&] {
-    const JsonCursor required = root.member("extensionsRequired");
-    if (lists_extension(required)) required.fail(IssueCode::extension_required, "");
-  });
-  return found;
-}
-
-std::optional<ProgressiveAsset> read_mesh(GltfDocument& document, std::size_t mesh,
-                                          Issues& issues) {
+// As read_mesh; may name an issue twice, as the schema's and as that of a step.
+std::optional<ProgressiveAsset> read_parts(GltfDocument& document, std::size_t mesh,
+                                           Issues& issues) {
   ProgressiveAsset asset;
   const JsonCursor place = document.root().member("meshes").element(mesh);
   const JsonCursor extension = extension_of(place);
   if (!collect(issues, [&] { extension.member("levels"); })) return std::nullopt;
-  check_unknown_properties(extension, issues);
-  bool decodes = true;
+  // What follows relies on types and ranges only if the schema's rules are kept.
+  Issues defects;
+  checked_object(document.root(), extension, kExtensionType, defects);
+  const bool keeps_schema = first_error(defects) == nullptr;
+  issues.insert(issues.end(), defects.begin(), defects.end());
+  bool decodes = keeps_schema;
   const auto step = [&](auto read) { decodes = collect(issues, read) && decodes; };
-  step([&] { read_levels(extension.member("levels"), asset); });
-  step([&] { check_attributes(extension.member("attributes")); });
-  step([&] { read_bounds(extension.member("bounds"), asset); });
-  step([&] { read_diagonal(extension.member("sourceDiagonal"), asset); });
-  step([&] { read_prefixes(extension.member("prefixes"), asset); });
+  if (keeps_schema) {
+    asset.levels = static_cast<int>(extension.member("levels").unsigned_integer());
+    asset.source_diagonal = extension.member("sourceDiagonal").number();
+    step([&] { check_attributes(extension.member("attributes")); });
+    step([&] { read_bounds(extension.member("bounds"), asset); });
+    step([&] { read_prefixes(extension.member("prefixes"), asset); });
+  }
   step([&] { read_payload(document, extension.member("bufferView"), asset); });
   step([&] { read_base(document, place, asset); });
-  step([&] { asset.placement = placement_of(document.root(), mesh); });
   if (!decodes) return std::nullopt;
   collect(issues, [&] {
     if (place.member("name").exists()) asset.name = place.member("name").string();
@@ -266,6 +246,46 @@ std::optional<ProgressiveAsset> read_mesh(GltfDocument& document, std::size_t me
     issues.push_back({IssueCode::payload_truncated, extension.member("bufferView").pointer(),
                       std::to_string(asset.payload.size()) + " of " +
                           std::to_string(asset.payload_length) + " bytes are there"});
+  return asset;
+}
+
+}  // namespace
+
+std::vector<std::size_t> progressive_meshes(const GltfDocument& document, Issues& issues) {
+  const JsonCursor root = document.root();
+  std::vector<std::size_t> found;
+  collect(issues, [&] {
+    const JsonCursor meshes = root.member("meshes");
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      const JsonCursor mesh = meshes.element(i);
+      collect(issues, [&] {
+        if (extension_of(mesh).exists()) found.push_back(i);
+        const JsonCursor primitives = primitives_of(mesh);
+        for (std::size_t k = 0; k < primitives.size(); ++k)
+          check_misplaced(primitives.element(k), issues);
+      });
+    }
+  });
+  check_misplaced_everywhere(root, issues);
+  collect(issues, [&] {
+    if (lists_extension(root.member("extensionsUsed"))) return;
+    for (std::size_t mesh : found)
+      issues.push_back({IssueCode::undeclared_extension,
+                        extension_of(root.member("meshes").element(mesh)).pointer(), ""});
+  });
+  collect(issues, [&] {
+    const JsonCursor required = root.member("extensionsRequired");
+    if (lists_extension(required)) required.fail(IssueCode::extension_required, "");
+  });
+  return found;
+}
+
+std::optional<ProgressiveAsset> read_mesh(GltfDocument& document, std::size_t mesh,
+                                          Issues& issues) {
+  Issues found;
+  std::optional<ProgressiveAsset> asset = read_parts(document, mesh, found);
+  remove_repeated(found);
+  std::move(found.begin(), found.end(), std::back_inserter(issues));
   return asset;
 }
 
@@ -285,11 +305,13 @@ ProgressiveAsset read_progressive(const std::filesystem::path& path) {
                       path.string() + ": /meshes: " + std::to_string(meshes.size()) +
                           " meshes are progressive: split the file, one mesh can be read");
         asset = read_mesh(document, meshes.front(), issues);
+        if (asset) asset->placement = placement_of(document.root(), meshes.front());
       }))
     fail(issues.back());
   // A payload that is cut off decodes like any prefix; everything else would decode wrongly.
   for (const Issue& issue : issues)
     if (is_error(issue) && issue.code != IssueCode::payload_truncated) fail(issue);
+  if (!asset) fail(issues.back());
   return *asset;
 }
 

@@ -20,8 +20,8 @@ ProgressiveAsset read_progressive(const std::filesystem::path& path);
 /// document as a whole (extensionsUsed, extensionsRequired, places without meaning).
 std::vector<std::size_t> progressive_meshes(const GltfDocument& document, Issues& issues);
 
-/// Reads mesh `mesh`, which has the extension, and adds all that is wrong with it to `issues`;
-/// empty if an error leaves nothing to decode.
+/// Reads mesh `mesh`, which has the extension, without its placement, and adds all that is wrong
+/// with it to `issues`, each issue once; empty if an error leaves nothing to decode.
 std::optional<ProgressiveAsset> read_mesh(GltfDocument& document, std::size_t mesh, Issues& issues);
 
 }  // namespace zerotree::gltf

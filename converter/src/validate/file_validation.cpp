@@ -6,6 +6,7 @@
 #include "bitstream/stream_header.h"
 #include "gltf/glb_container.h"
 #include "gltf/progressive_reader.h"
+#include "gltf/structure_check.h"
 #include "validate/payload_check.h"
 
 namespace zerotree::validate {
@@ -39,10 +40,12 @@ void validate_stream(std::span<const std::uint8_t> file, const ValidateOptions& 
 void read_asset_info(const GltfDocument& document, ValidationReport& report) {
   const gltf::JsonCursor asset = document.root().member("asset");
   report.version = asset.member("version").string();
-  if (asset.member("generator").exists()) report.generator = asset.member("generator").string();
+  const gltf::JsonCursor generator = asset.member("generator");
+  if (generator.exists() && generator.value().is_string()) report.generator = generator.string();
   const gltf::JsonCursor used = document.root().member("extensionsUsed");
   for (std::size_t i = 0; i < used.size(); ++i)
-    report.extensions_used.push_back(used.element(i).string());
+    if (used.element(i).value().is_string())
+      report.extensions_used.push_back(used.element(i).string());
 }
 
 void validate_mesh(GltfDocument& document, std::size_t mesh, const ValidateOptions& options,
@@ -58,9 +61,9 @@ void validate_mesh(GltfDocument& document, std::size_t mesh, const ValidateOptio
 
 void validate_gltf(const std::filesystem::path& path, std::vector<std::uint8_t> file,
                    const ValidateOptions& options, ValidationReport& report) {
-  GltfDocument document(path, std::move(file));
+  GltfDocument document(path, std::move(file), report.issues);
+  gltf::check_structure(document, report.issues);
   read_asset_info(document, report);
-  if (document.is_truncated()) report.issues.push_back({IssueCode::glb_truncated, "", ""});
   const std::vector<std::size_t> meshes = gltf::progressive_meshes(document, report.issues);
   if (meshes.empty()) report.issues.push_back({IssueCode::extension_absent, "", ""});
   for (std::size_t mesh : meshes) validate_mesh(document, mesh, options, report);
@@ -99,6 +102,7 @@ ValidationReport validate_file(const std::filesystem::path& path, const Validate
   } catch (const IssueFound& found) {
     report.issues.push_back(found.issue());
   }
+  gltf::remove_repeated(report.issues);
   return report;
 }
 

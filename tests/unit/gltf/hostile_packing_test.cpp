@@ -72,8 +72,8 @@ TEST(HostilePacking, SizesBeyondTheDataAreRefused) {
 }
 
 TEST(HostilePacking, FormsThatDoNotExistAreRefused) {
-  EXPECT_EQ(refusal([](json& r) { packing(r, 0)["byteStride"] = 0; }), "PROPERTY_VALUE");
-  EXPECT_EQ(refusal([](json& r) { packing(r, 0)["byteStride"] = 260; }), "PROPERTY_VALUE");
+  EXPECT_EQ(refusal([](json& r) { packing(r, 0)["byteStride"] = 0; }), "VALUE_NOT_IN_RANGE");
+  EXPECT_EQ(refusal([](json& r) { packing(r, 0)["byteStride"] = 260; }), "VALUE_NOT_IN_RANGE");
   EXPECT_EQ(refusal([](json& r) { packing(r, 0)["byteStride"] = 6; }), "PACKING_BROKEN");
   EXPECT_EQ(refusal([](json& r) { packing(r, 1)["byteStride"] = 3; }), "PACKING_BROKEN");
   EXPECT_EQ(refusal([](json& r) { packing(r, 1)["mode"] = "QUADS"; }), "PACKING_BROKEN");
@@ -85,12 +85,13 @@ TEST(HostilePacking, FormsThatDoNotExistAreRefused) {
 }
 
 TEST(HostilePacking, PlacesOutsideTheFileAreRefused) {
-  EXPECT_EQ(refusal([](json& r) { packing(r, 0)["buffer"] = 9; }), "INDEX_UNRESOLVED");
-  EXPECT_EQ(refusal([](json& r) { packing(r, 0)["buffer"] = 1; }), "BUFFER_UNREADABLE");
-  EXPECT_EQ(refusal([](json& r) { packing(r, 0)["byteLength"] = 1 << 30; }), "VIEW_OUT_OF_BUFFER");
+  EXPECT_EQ(refusal([](json& r) { packing(r, 0)["buffer"] = 9; }), "UNRESOLVED_REFERENCE");
+  EXPECT_EQ(refusal([](json& r) { packing(r, 0)["buffer"] = 1; }), "BUFFER_TOO_SHORT");
+  EXPECT_EQ(refusal([](json& r) { packing(r, 0)["byteLength"] = 1 << 30; }),
+            "BUFFER_VIEW_TOO_LONG");
   EXPECT_EQ(refusal([](json& r) { packing(r, 0)["byteOffset"] = 9007199254740992; }),
-            "VIEW_OUT_OF_BUFFER");
-  EXPECT_EQ(refusal([](json& r) { r["bufferViews"][0]["byteLength"] = 8; }), "PROPERTY_VALUE");
+            "BUFFER_VIEW_TOO_LONG");
+  EXPECT_EQ(refusal([](json& r) { r["bufferViews"][0]["byteLength"] = 8; }), "PACKING_BROKEN");
 }
 
 TEST(HostilePacking, ThePayloadMustNotBePacked) {
