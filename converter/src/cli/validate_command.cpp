@@ -54,7 +54,7 @@ std::string counts_of(std::size_t errors, std::size_t warnings) {
 void print_report(const ValidationReport& report, bool is_quiet) {
   for (const gltf::Issue& issue : report.issues) {
     const gltf::IssueText& text = gltf::issue_text(issue.code);
-    if (is_quiet && text.severity != Severity::error) continue;
+    if (report.is_unreadable || (is_quiet && text.severity != Severity::error)) continue;
     std::printf("%s: %s %s%s%s: %s\n", report.uri.c_str(), validate::severity_name(text.severity),
                 text.id, issue.pointer.empty() ? "" : " at ", issue.pointer.c_str(),
                 gltf::issue_message(issue).c_str());
@@ -207,8 +207,8 @@ void add_validate(CLI::App& app, int& exit_code) {
   add_source(*command, *arguments);
   command
       ->add_option("--random-prefixes", arguments->options.random_prefixes,
-                   "Prefixes to decode beside those of the table; fewer of large surfaces: all "
-                   "that are decoded of a mesh have at most 2^27 vertices together [8]")
+                   "Prefixes to decode beside those of the table; fewer of large surfaces, whose "
+                   "vertices are at most 2^27 together, a base vertex counting 12 times [8]")
       ->check(CLI::Range(0, 1000000));
   command
       ->add_option("--max-vertices", arguments->options.max_vertices,

@@ -1,5 +1,8 @@
 #include "validate/payload_check.h"
 
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
@@ -29,7 +32,6 @@ using gltf::ProgressiveAsset;
 using surface::LevelCounts;
 using surface::ProgressiveSurface;
 
-// Between two reports of progress.
 constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
 // A base mesh lies around its surface, and not far around.
 constexpr double kMostDiagonalRatio = 4;
@@ -56,6 +58,16 @@ bitstream::Limits limits_of(const ValidateOptions& options) {
   return limits;
 }
 
+// Surfaces are made on all of the machine's threads; they do not depend on that.
+surface::SurfaceResources parallel() {
+  surface::SurfaceResources resources;
+  resources.jobs.run = [](void*, std::uint32_t count, surface::Jobs::Task task, void* context) {
+    tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t i) { task(context, i); });
+  };
+  resources.jobs.threads = static_cast<std::uint32_t>(tbb::info::default_concurrency());
+  return resources;
+}
+
 bool is_too_large(std::uint64_t vertices, const ValidateOptions& options,
                   const std::string& pointer, Issues& issues) {
   if (vertices <= options.max_vertices) return false;
@@ -65,31 +77,46 @@ bool is_too_large(std::uint64_t vertices, const ValidateOptions& options,
   return true;
 }
 
-void feed_reporting(ProgressiveSurface& surface, std::span<const std::uint8_t> bytes,
-                    std::size_t before, std::size_t all, const Progress& progress) {
-  while (!bytes.empty()) {
-    report_progress(progress, "decoding", static_cast<double>(before) / static_cast<double>(all));
-    const auto piece = bytes.first(std::min(bytes.size(), kPieceBytes));
-    surface.feed(piece);
-    before += piece.size();
-    bytes = bytes.subspan(piece.size());
+// A payload whose memory is given back as it is fed.
+class PayloadPieces {
+ public:
+  explicit PayloadPieces(std::vector<std::uint8_t>&& payload) : size_(payload.size()) {
+    for (std::span<const std::uint8_t> rest = payload; !rest.empty();) {
+      const auto piece = rest.first(std::min(rest.size(), kPieceBytes));
+      pieces_.emplace_back(piece.begin(), piece.end());
+      rest = rest.subspan(piece.size());
+    }
+    std::vector<std::uint8_t>().swap(payload);
   }
-}
+
+  void feed_to(std::uint64_t end, ProgressiveSurface& surface, const Progress& progress) {
+    while (fed_ < end) {
+      report_progress(progress, "decoding", static_cast<double>(fed_) / static_cast<double>(size_));
+      std::vector<std::uint8_t>& piece = pieces_[fed_ / kPieceBytes];
+      const auto rest = std::span<const std::uint8_t>(piece).subspan(fed_ % kPieceBytes);
+      const auto fed = rest.first(std::min<std::uint64_t>(rest.size(), end - fed_));
+      surface.feed(fed);
+      fed_ += fed.size();
+      if (fed.size() == rest.size()) std::vector<std::uint8_t>().swap(piece);
+    }
+  }
+
+ private:
+  std::uint64_t size_, fed_ = 0;
+  std::vector<std::vector<std::uint8_t>> pieces_;
+};
 
 // Feeds the payload from checkpoint to checkpoint and shows the finest surface at each that has
 // one. Throws std::invalid_argument if the base is no manifold.
-void walk_prefixes(ProgressiveSurface& surface, std::span<const std::uint8_t> payload,
+void walk_prefixes(ProgressiveSurface& surface, PayloadPieces& payload,
                    const std::vector<Checkpoint>& checkpoints, const Progress& progress,
                    const Look& look) {
-  std::vector<float> limits;
-  std::size_t fed = 0;
   for (const Checkpoint& checkpoint : checkpoints) {
-    feed_reporting(surface, payload.subspan(fed, checkpoint.bytes - fed), fed, payload.size(),
-                   progress);
-    fed = checkpoint.bytes;
+    payload.feed_to(checkpoint.bytes, surface, progress);
     if (!surface.is_ready()) continue;
     const int level = surface.levels();
-    limits.resize(3 * surface.counts(level).vertices);
+    // Anew each time: feeding takes memory too, but not at the same time.
+    std::vector<float> limits(3 * surface.counts(level).vertices);
     if (surface.write_limits(level, {{limits.data()}, {}}) == surface::SurfaceOutcome::broken)
       throw std::invalid_argument(surface.reason());
     look(checkpoint, limits);
@@ -182,7 +209,8 @@ std::optional<KnownBase> know_base(const ProgressiveAsset& asset, const MeshPlac
 
 PrefixPlan plan_for(const ProgressiveAsset& asset, std::uint64_t vertices,
                     const ValidateOptions& options, const std::string& extension, Issues& issues) {
-  PrefixPlan plan = plan_prefixes(asset.payload, asset.prefixes, options.random_prefixes, vertices);
+  PrefixPlan plan = plan_prefixes(asset.payload, asset.prefixes, options.random_prefixes,
+                                  surface_cost(asset.base.vertex_count, vertices));
   if (plan.entries_left_out > 0)
     issues.push_back({IssueCode::prefixes_sampled, extension + "/prefixes",
                       std::to_string(asset.prefixes.size() - plan.entries_left_out) + " of " +
@@ -192,14 +220,21 @@ PrefixPlan plan_for(const ProgressiveAsset& asset, std::uint64_t vertices,
 
 // What the finest level of an elementary stream has at least, by its header; zeros if there is
 // none.
-LevelCounts finest_by_header(std::span<const std::uint8_t> stream) {
+struct CountsByHeader {
+  std::uint64_t base_vertices = 0;
+  LevelCounts finest;
+};
+
+CountsByHeader counts_by_header(std::span<const std::uint8_t> stream) {
   constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
   bitstream::StreamHeader header;
   const bitstream::HeaderResult result =
       bitstream::read_header(stream, {kUnlimited, bitstream::kMostLevels, kUnlimited}, header);
   if (result.status != DecodeStatus::done || header.external_base) return {};
   const std::uint64_t faces = header.face_count;
-  return surface::refined_counts({header.vertex_count, (3 * faces + 1) / 2, faces}, header.levels);
+  return {
+      header.vertex_count,
+      surface::refined_counts({header.vertex_count, (3 * faces + 1) / 2, faces}, header.levels)};
 }
 
 SeamCheck embedded_seams(const ProgressiveSurface& surface) {
@@ -222,15 +257,17 @@ PayloadFacts check_payload(ProgressiveAsset asset, const MeshPlace& place,
   const std::uint64_t vertices = surface::refined_counts(known->counts, levels).vertices;
   const std::uint32_t base_hash = bitstream::hash_base(asset.base, known->positions);
   const PrefixPlan plan = plan_for(asset, vertices, options, extension, issues);
+  const std::uint64_t payload_bytes = asset.payload.size();
   std::vector<Eigen::Vector3f>().swap(asset.control_points);
   ProgressiveSurface surface({std::move(asset.base), std::move(known->positions), levels},
-                             limits_of(options));
+                             limits_of(options), parallel());
+  PayloadPieces payload(std::move(asset.payload));
   const StatedSurface stated{
       extension, place.mesh, {asset.bounds_min, asset.bounds_max}, asset.source_diagonal};
   SurfaceFindings findings(&stated);
   findings.watch(known->seams);
   try {
-    walk_prefixes(surface, asset.payload, plan.checkpoints, progress,
+    walk_prefixes(surface, payload, plan.checkpoints, progress,
                   [&](const Checkpoint& checkpoint, std::span<const float> limits) {
                     facts.finest_vertices = vertices;
                     findings.look_at(checkpoint, limits);
@@ -242,34 +279,37 @@ PayloadFacts check_payload(ProgressiveAsset asset, const MeshPlace& place,
   facts.prefixes_decoded = findings.surfaces();
   findings.add_issues(issues);
   if (!check_header(surface, levels, base_hash, extension, issues)) return facts;
-  add_final_status(surface, asset.payload.size(), extension + "/bufferView", issues);
+  add_final_status(surface, payload_bytes, extension + "/bufferView", issues);
   check_entries_in_stream(surface, asset.prefixes, extension, issues);
   return facts;
 }
 
-PayloadFacts check_stream(std::span<const std::uint8_t> stream, const ValidateOptions& options,
+PayloadFacts check_stream(std::vector<std::uint8_t> stream, const ValidateOptions& options,
                           const Progress& progress, Issues& issues) {
   PayloadFacts facts;
-  const LevelCounts least = finest_by_header(stream);
-  if (is_too_large(least.vertices, options, "", issues)) {
-    facts.finest_triangles = least.triangles;
+  const CountsByHeader least = counts_by_header(stream);
+  if (is_too_large(least.finest.vertices, options, "", issues)) {
+    facts.finest_triangles = least.finest.triangles;
     return facts;
   }
-  ProgressiveSurface surface(limits_of(options));
+  ProgressiveSurface surface(limits_of(options), parallel());
+  const std::uint64_t stream_bytes = stream.size();
+  const PrefixPlan plan = plan_prefixes(stream, {}, options.random_prefixes,
+                                        surface_cost(least.base_vertices, least.finest.vertices));
+  PayloadPieces payload(std::move(stream));
   std::optional<SeamCheck> seams;
   SurfaceFindings findings(nullptr);
-  const PrefixPlan plan = plan_prefixes(stream, {}, options.random_prefixes, least.vertices);
   try {
-    walk_prefixes(surface, stream, plan.checkpoints, progress,
+    walk_prefixes(surface, payload, plan.checkpoints, progress,
                   [&](const Checkpoint& checkpoint, std::span<const float> limits) {
-                    if (checkpoint.bytes == stream.size())
+                    if (checkpoint.bytes == stream_bytes)
                       findings.watch(seams.emplace(embedded_seams(surface)));
                     findings.look_at(checkpoint, limits);
                   });
   } catch (const std::invalid_argument&) {
     // The surface is broken now and says why.
   }
-  add_final_status(surface, stream.size(), "", issues);
+  add_final_status(surface, stream_bytes, "", issues);
   findings.add_issues(issues);
   facts.prefixes_decoded = findings.surfaces();
   if (!surface.is_ready()) return facts;

@@ -20,6 +20,8 @@ constexpr std::size_t kMostMeasured = 32;
 // What convert's tables are made with, and what `compare` takes: see convert::Precision.
 constexpr std::size_t kQuickSamples = 50'000, kExactSamples = 1'000'000;
 constexpr double kUnderstated = 1.03, kOverstated = 1.25;
+// A quick measurement is not farther off than this.
+constexpr double kDoubtful = 1.3;
 constexpr double kDiagonalTolerance = 1e-3;
 
 // An entry of the table and its measured error. Lengths are those of the source, in place.
@@ -54,7 +56,8 @@ std::vector<Measurement> measure_table(const decode::StreamFile& file,
     prefix.advance_to(file.prefixes[entry].bytes);
     const TriangleMesh surface = decode::to_triangle_mesh(prefix.surface());
     double measured = distance(source, surface, kQuickSamples);
-    if (measured > kUnderstated * stated) measured = distance(source, surface, kExactSamples);
+    if (measured > kUnderstated * stated && measured < kDoubtful * stated)
+      measured = distance(source, surface, kExactSamples);
     measurements.push_back({entry, stated, measured});
   }
   return measurements;
