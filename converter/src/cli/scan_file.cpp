@@ -21,21 +21,22 @@ void set_size(const std::string& text, const char* option, double& relative, dou
 
 }  // namespace
 
-TriangleMesh read_scan(const std::filesystem::path& path, const RequestedRepairs& repairs,
-                       const Progress& progress) {
+Scan read_scan(const std::filesystem::path& path, const RequestedRepairs& repairs,
+               const Progress& progress) {
   convert::ConvertOptions options;
   set_size(repairs.fill_holes, "--fill-holes", options.fill_holes, options.fill_holes_metres);
   set_size(repairs.remove_handles, "--remove-handles", options.remove_handles,
            options.remove_handles_metres);
-  TriangleMesh scan = importer::import_mesh(path, {}, progress).mesh;
+  Scan scan{importer::import_mesh(path, {}, progress).mesh, 0};
+  scan.diagonal = bounding_box_diagonal(scan.mesh.positions);
   if (repairs.fill_holes.empty() && repairs.remove_handles.empty()) return scan;
   report::StageClock clock;
   report::ConvertReport report;
-  report.diagonal = bounding_box_diagonal(scan.positions);
-  TriangleMesh changed = convert::clean_input(scan, clock, report, progress);
-  return convert::make_requested_repairs(changed, options, clock, report, progress)
-             ? std::move(changed)
-             : std::move(scan);
+  report.diagonal = scan.diagonal;
+  TriangleMesh changed = convert::clean_input(scan.mesh, clock, report, progress);
+  if (convert::make_requested_repairs(changed, options, clock, report, progress))
+    scan.mesh = std::move(changed);
+  return scan;
 }
 
 }  // namespace zerotree::cli

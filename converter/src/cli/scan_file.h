@@ -15,9 +15,16 @@ struct RequestedRepairs {
   std::string remove_handles;
 };
 
-/// The surface that `convert` measures errors against: the scan as it is in its file or, where the
-/// repairs change it, the cleaned and changed one. Throws Error naming the file or the option.
-TriangleMesh read_scan(const std::filesystem::path& path, const RequestedRepairs& repairs,
-                       const Progress& progress);
+struct Scan {
+  /// The surface that `convert` measures errors against: the scan as it is in its file or, where
+  /// the repairs change it, the cleaned and changed one.
+  TriangleMesh mesh;
+  /// Bounding box diagonal of the scan as it is in its file.
+  double diagonal = 0;
+};
+
+/// Throws Error naming the file or the option.
+Scan read_scan(const std::filesystem::path& path, const RequestedRepairs& repairs,
+               const Progress& progress);
 
 }  // namespace zerotree::cli

@@ -38,12 +38,13 @@ struct ValidateArguments {
   RequestedRepairs repairs;
 };
 
-// The scan and its search tree.
+// The scan and its search tree, which refers to it.
 struct Source {
-  TriangleMesh mesh;
-  measure::SurfaceIndex index;
+  Scan scan;
+  validate::SourceScan measured;
 
-  explicit Source(TriangleMesh scan) : mesh(std::move(scan)), index(mesh) {}
+  explicit Source(Scan read)
+      : scan(std::move(read)), measured{measure::SurfaceIndex(scan.mesh), scan.diagonal} {}
 };
 
 std::string counts_of(std::size_t errors, std::size_t warnings) {
@@ -136,7 +137,7 @@ int validate_all(ValidateArguments& arguments) {
     TerminalProgress progress;
     source = std::make_unique<const Source>(
         read_scan(arguments.source, arguments.repairs, progress.callback()));
-    options.source = &source->index;
+    options.source = &source->measured;
   }
   std::vector<ValidationReport> reports;
   for (const InputFile& input : inputs) {

@@ -38,13 +38,12 @@ MeshInfo mesh_info(std::string pointer, const PayloadFacts& facts, std::uint64_t
   return info;
 }
 
-void validate_stream(std::vector<std::uint8_t> file, const ValidateOptions& options,
+void validate_stream(std::span<const std::uint8_t> file, const ValidateOptions& options,
                      const Progress& progress, ValidationReport& report) {
   report.progressive_meshes = 1;
   report.total_bytes = options.budgets.max_bytes > 0 ? file.size() : 0;
-  const std::uint64_t bytes = file.size();
-  const PayloadFacts facts = check_stream(std::move(file), options, progress, report.issues);
-  report.meshes.push_back(mesh_info("", facts, bytes));
+  const PayloadFacts facts = check_stream(file, options, progress, report.issues);
+  report.meshes.push_back(mesh_info("", facts, file.size()));
 }
 
 void read_asset_info(const GltfDocument& document, ValidationReport& report) {
@@ -138,7 +137,7 @@ void check_content(const std::filesystem::path& path, std::vector<std::uint8_t> 
   report.mime_type = kStreamType;
   try {
     if (starts_stream(file)) {
-      validate_stream(std::move(file), options, progress, report);
+      validate_stream(file, options, progress, report);
     } else if (gltf::is_glb(file) || starts_json(file)) {
       report.mime_type = gltf::is_glb(file) ? kBinaryType : kJsonType;
       validate_gltf(path, std::move(file), options, progress, report);

@@ -32,6 +32,7 @@ using gltf::ProgressiveAsset;
 using surface::LevelCounts;
 using surface::ProgressiveSurface;
 
+// Between two reports of progress.
 constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
 // A base mesh lies around its surface, and not far around.
 constexpr double kMostDiagonalRatio = 4;
@@ -50,11 +51,11 @@ std::string extension_of(const MeshPlace& place) {
 }
 
 bitstream::Limits limits_of(const ValidateOptions& options) {
-  // Of the decoder's state; it takes up to 40 bytes per vertex.
-  constexpr std::uint64_t kMemoryPerVertex = 64;
+  // Of the decoder's state; base vertices take the most. So vertices alone decide.
+  constexpr std::uint64_t kMemoryPerVertex = 1024;
   bitstream::Limits limits;
   limits.max_vertices = options.max_vertices;
-  limits.max_memory = std::max(limits.max_memory, kMemoryPerVertex * options.max_vertices);
+  limits.max_memory = kMemoryPerVertex * options.max_vertices;
   return limits;
 }
 
@@ -77,46 +78,31 @@ bool is_too_large(std::uint64_t vertices, const ValidateOptions& options,
   return true;
 }
 
-// A payload whose memory is given back as it is fed.
-class PayloadPieces {
- public:
-  explicit PayloadPieces(std::vector<std::uint8_t>&& payload) : size_(payload.size()) {
-    for (std::span<const std::uint8_t> rest = payload; !rest.empty();) {
-      const auto piece = rest.first(std::min(rest.size(), kPieceBytes));
-      pieces_.emplace_back(piece.begin(), piece.end());
-      rest = rest.subspan(piece.size());
-    }
-    std::vector<std::uint8_t>().swap(payload);
+void feed_reporting(ProgressiveSurface& surface, std::span<const std::uint8_t> bytes,
+                    std::size_t before, std::size_t all, const Progress& progress) {
+  while (!bytes.empty()) {
+    report_progress(progress, "decoding", static_cast<double>(before) / static_cast<double>(all));
+    const auto piece = bytes.first(std::min(bytes.size(), kPieceBytes));
+    surface.feed(piece);
+    before += piece.size();
+    bytes = bytes.subspan(piece.size());
   }
-
-  void feed_to(std::uint64_t end, ProgressiveSurface& surface, const Progress& progress) {
-    while (fed_ < end) {
-      report_progress(progress, "decoding", static_cast<double>(fed_) / static_cast<double>(size_));
-      std::vector<std::uint8_t>& piece = pieces_[fed_ / kPieceBytes];
-      const auto rest = std::span<const std::uint8_t>(piece).subspan(fed_ % kPieceBytes);
-      const auto fed = rest.first(std::min<std::uint64_t>(rest.size(), end - fed_));
-      surface.feed(fed);
-      fed_ += fed.size();
-      if (fed.size() == rest.size()) std::vector<std::uint8_t>().swap(piece);
-    }
-  }
-
- private:
-  std::uint64_t size_, fed_ = 0;
-  std::vector<std::vector<std::uint8_t>> pieces_;
-};
+}
 
 // Feeds the payload from checkpoint to checkpoint and shows the finest surface at each that has
 // one. Throws std::invalid_argument if the base is no manifold.
-void walk_prefixes(ProgressiveSurface& surface, PayloadPieces& payload,
+void walk_prefixes(ProgressiveSurface& surface, std::span<const std::uint8_t> payload,
                    const std::vector<Checkpoint>& checkpoints, const Progress& progress,
                    const Look& look) {
+  std::vector<float> limits;
+  std::size_t fed = 0;
   for (const Checkpoint& checkpoint : checkpoints) {
-    payload.feed_to(checkpoint.bytes, surface, progress);
+    feed_reporting(surface, payload.subspan(fed, checkpoint.bytes - fed), fed, payload.size(),
+                   progress);
+    fed = checkpoint.bytes;
     if (!surface.is_ready()) continue;
     const int level = surface.levels();
-    // Anew each time: feeding takes memory too, but not at the same time.
-    std::vector<float> limits(3 * surface.counts(level).vertices);
+    limits.resize(3 * surface.counts(level).vertices);
     if (surface.write_limits(level, {{limits.data()}, {}}) == surface::SurfaceOutcome::broken)
       throw std::invalid_argument(surface.reason());
     look(checkpoint, limits);
@@ -257,17 +243,15 @@ PayloadFacts check_payload(ProgressiveAsset asset, const MeshPlace& place,
   const std::uint64_t vertices = surface::refined_counts(known->counts, levels).vertices;
   const std::uint32_t base_hash = bitstream::hash_base(asset.base, known->positions);
   const PrefixPlan plan = plan_for(asset, vertices, options, extension, issues);
-  const std::uint64_t payload_bytes = asset.payload.size();
   std::vector<Eigen::Vector3f>().swap(asset.control_points);
   ProgressiveSurface surface({std::move(asset.base), std::move(known->positions), levels},
                              limits_of(options), parallel());
-  PayloadPieces payload(std::move(asset.payload));
   const StatedSurface stated{
       extension, place.mesh, {asset.bounds_min, asset.bounds_max}, asset.source_diagonal};
   SurfaceFindings findings(&stated);
   findings.watch(known->seams);
   try {
-    walk_prefixes(surface, payload, plan.checkpoints, progress,
+    walk_prefixes(surface, asset.payload, plan.checkpoints, progress,
                   [&](const Checkpoint& checkpoint, std::span<const float> limits) {
                     facts.finest_vertices = vertices;
                     findings.look_at(checkpoint, limits);
@@ -277,14 +261,16 @@ PayloadFacts check_payload(ProgressiveAsset asset, const MeshPlace& place,
     return facts;
   }
   facts.prefixes_decoded = findings.surfaces();
-  findings.add_issues(issues);
+  const bool is_whole =
+      surface.status() != DecodeStatus::broken && asset.payload.size() == asset.payload_length;
+  findings.add_issues(is_whole, issues);
   if (!check_header(surface, levels, base_hash, extension, issues)) return facts;
-  add_final_status(surface, payload_bytes, extension + "/bufferView", issues);
+  add_final_status(surface, asset.payload.size(), extension + "/bufferView", issues);
   check_entries_in_stream(surface, asset.prefixes, extension, issues);
   return facts;
 }
 
-PayloadFacts check_stream(std::vector<std::uint8_t> stream, const ValidateOptions& options,
+PayloadFacts check_stream(std::span<const std::uint8_t> stream, const ValidateOptions& options,
                           const Progress& progress, Issues& issues) {
   PayloadFacts facts;
   const CountsByHeader least = counts_by_header(stream);
@@ -293,24 +279,22 @@ PayloadFacts check_stream(std::vector<std::uint8_t> stream, const ValidateOption
     return facts;
   }
   ProgressiveSurface surface(limits_of(options), parallel());
-  const std::uint64_t stream_bytes = stream.size();
   const PrefixPlan plan = plan_prefixes(stream, {}, options.random_prefixes,
                                         surface_cost(least.base_vertices, least.finest.vertices));
-  PayloadPieces payload(std::move(stream));
   std::optional<SeamCheck> seams;
   SurfaceFindings findings(nullptr);
   try {
-    walk_prefixes(surface, payload, plan.checkpoints, progress,
+    walk_prefixes(surface, stream, plan.checkpoints, progress,
                   [&](const Checkpoint& checkpoint, std::span<const float> limits) {
-                    if (checkpoint.bytes == stream_bytes)
+                    if (checkpoint.bytes == stream.size())
                       findings.watch(seams.emplace(embedded_seams(surface)));
                     findings.look_at(checkpoint, limits);
                   });
   } catch (const std::invalid_argument&) {
     // The surface is broken now and says why.
   }
-  add_final_status(surface, stream_bytes, "", issues);
-  findings.add_issues(issues);
+  add_final_status(surface, stream.size(), "", issues);
+  findings.add_issues(surface.status() != DecodeStatus::broken, issues);
   facts.prefixes_decoded = findings.surfaces();
   if (!surface.is_ready()) return facts;
   facts.levels = surface.levels();

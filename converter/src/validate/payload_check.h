@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,7 @@ PayloadFacts check_payload(gltf::ProgressiveAsset asset, const MeshPlace& place,
                            gltf::Issues& issues);
 
 /// The same for an elementary stream with its base embedded.
-PayloadFacts check_stream(std::vector<std::uint8_t> stream, const ValidateOptions& options,
+PayloadFacts check_stream(std::span<const std::uint8_t> stream, const ValidateOptions& options,
                           const Progress& progress, gltf::Issues& issues);
 
 }  // namespace zerotree::validate

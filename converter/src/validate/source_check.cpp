@@ -91,7 +91,7 @@ void judge(const std::vector<Measurement>& measurements, double scale, const std
 
 }  // namespace
 
-void check_source(const std::filesystem::path& path, const measure::SurfaceIndex& source,
+void check_source(const std::filesystem::path& path, const SourceScan& source,
                   const Progress& progress, ValidationReport& report) {
   if (report.progressive_meshes != 1)
     throw Error(ExitCode::usage, path.string() + ": has " +
@@ -110,11 +110,10 @@ void check_source(const std::filesystem::path& path, const measure::SurfaceIndex
   MeshInfo& mesh = report.meshes.front();
   const std::string extension = mesh.pointer + "/extensions/" + gltf::kExtensionName;
   const double scale = file.placement.scale;
-  const double diagonal = bounding_box_diagonal(source.mesh().positions);
-  if (std::abs(file.source_diagonal - diagonal) > kDiagonalTolerance * diagonal)
+  if (std::abs(file.source_diagonal - source.diagonal) > kDiagonalTolerance * source.diagonal)
     add_issue(IssueCode::source_diagonal_mismatch, extension + "/sourceDiagonal",
-              file.source_diagonal / scale, diagonal / scale, report);
-  const std::vector<Measurement> measurements = measure_table(file, source, progress);
+              file.source_diagonal / scale, source.diagonal / scale, report);
+  const std::vector<Measurement> measurements = measure_table(file, source.surface, progress);
   for (const Measurement& m : measurements)
     mesh.measured.push_back({file.prefixes[m.entry].bytes, m.stated / scale, m.measured / scale});
   judge(measurements, scale, extension, report);

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "measure/surface_index.h"
 #include "mesh/progress.h"
+#include "validate/validate_options.h"
 #include "validate/validation_report.h"
 
 namespace zerotree::validate {
@@ -19,7 +19,7 @@ namespace zerotree::validate {
 ///
 /// Throws Error(usage) unless the file has one progressive mesh, with a table. Costs about a
 /// quarter of a second a prefix and 150 bytes per triangle of its surface.
-void check_source(const std::filesystem::path& path, const measure::SurfaceIndex& source,
+void check_source(const std::filesystem::path& path, const SourceScan& source,
                   const Progress& progress, ValidationReport& report);
 
 }  // namespace zerotree::validate

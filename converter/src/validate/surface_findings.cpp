@@ -121,10 +121,10 @@ void SurfaceFindings::add_loose_bounds(Issues& issues) const {
                         text_of(stated_->source_diagonal)});
 }
 
-void SurfaceFindings::add_issues(Issues& issues) const {
+void SurfaceFindings::add_issues(bool is_whole, Issues& issues) const {
   issues.insert(issues.end(), found_.begin(), found_.end());
   if (outside_between_entries_) issues.push_back(*outside_between_entries_);
-  add_loose_bounds(issues);
+  if (is_whole) add_loose_bounds(issues);
   add_seams(issues);
 }
 

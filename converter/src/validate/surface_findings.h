@@ -37,8 +37,9 @@ class SurfaceFindings {
   void look_at(const Checkpoint& checkpoint, std::span<const float> limits);
 
   std::uint64_t surfaces() const { return surfaces_; }
-  /// What is wrong with the surfaces, and with bounds and seams in view of all of them.
-  void add_issues(gltf::Issues& issues) const;
+  /// What is wrong with the surfaces and, if they have all been seen up to that of the whole stream
+  /// (`is_whole`), with the size of the bounds.
+  void add_issues(bool is_whole, gltf::Issues& issues) const;
 
  private:
   struct WidestGap {

@@ -20,6 +20,14 @@ struct Budgets {
   std::uint64_t max_triangles = 0;
 };
 
+/// The mesh that a file was made of.
+struct SourceScan {
+  /// What the errors of the prefixes table are measured against.
+  measure::SurfaceIndex surface;
+  /// Bounding box diagonal of the scan as it was, before anything was changed.
+  double diagonal = 0;
+};
+
 struct ValidateOptions {
   /// Largest surface to decode, in vertices of the finest level; a reader's limit, not the
   /// format's.
@@ -27,10 +35,10 @@ struct ValidateOptions {
   /// Prefixes to decode beside none, all bytes and those of the table; fewer of large surfaces, see
   /// plan_prefixes.
   std::size_t random_prefixes = 8;
-  Budgets budgets;
-  /// The mesh that was encoded, as the errors of the prefixes table are measured against it; null:
-  /// they are not measured. Only for a file with one progressive mesh.
-  const measure::SurfaceIndex* source = nullptr;
+  Budgets budgets = {};
+  /// The mesh that was encoded; null: errors are not measured. Only for a file with one progressive
+  /// mesh.
+  const SourceScan* source = nullptr;
 };
 
 }  // namespace zerotree::validate
