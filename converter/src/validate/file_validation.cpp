@@ -112,8 +112,9 @@ void validate_gltf(const std::filesystem::path& path, std::vector<std::uint8_t> 
     // A mesh has copied what it needs: the last one is decoded without the file in memory.
     if (mesh == meshes.back()) document.reset();
     if (asset)
-      validate_mesh({{"/meshes/" + std::to_string(mesh), std::move(ends)}, std::move(*asset)},
-                    options, progress, report);
+      validate_mesh(
+          {{"/meshes/" + std::to_string(mesh), std::move(ends), meshes.size()}, std::move(*asset)},
+          options, progress, report);
   }
 }
 

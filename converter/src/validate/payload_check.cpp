@@ -193,12 +193,13 @@ std::optional<KnownBase> know_base(const ProgressiveAsset& asset, const MeshPlac
   return KnownBase{counts, std::move(positions), std::move(seams)};
 }
 
-PrefixPlan plan_for(const ProgressiveAsset& asset, std::uint64_t vertices,
-                    const ValidateOptions& options, const std::string& extension, Issues& issues) {
+PrefixPlan plan_for(const ProgressiveAsset& asset, std::uint64_t vertices, const MeshPlace& place,
+                    const ValidateOptions& options, Issues& issues) {
+  const std::uint64_t cost = surface_cost(asset.base.vertex_count, vertices);
   PrefixPlan plan = plan_prefixes(asset.payload, asset.prefixes, options.random_prefixes,
-                                  surface_cost(asset.base.vertex_count, vertices));
+                                  cost * place.meshes_in_file);
   if (plan.entries_left_out > 0)
-    issues.push_back({IssueCode::prefixes_sampled, extension + "/prefixes",
+    issues.push_back({IssueCode::prefixes_sampled, extension_of(place) + "/prefixes",
                       std::to_string(asset.prefixes.size() - plan.entries_left_out) + " of " +
                           std::to_string(asset.prefixes.size())});
   return plan;
@@ -242,7 +243,7 @@ PayloadFacts check_payload(ProgressiveAsset asset, const MeshPlace& place,
   if (!known) return facts;
   const std::uint64_t vertices = surface::refined_counts(known->counts, levels).vertices;
   const std::uint32_t base_hash = bitstream::hash_base(asset.base, known->positions);
-  const PrefixPlan plan = plan_for(asset, vertices, options, extension, issues);
+  const PrefixPlan plan = plan_for(asset, vertices, place, options, issues);
   std::vector<Eigen::Vector3f>().swap(asset.control_points);
   ProgressiveSurface surface({std::move(asset.base), std::move(known->positions), levels},
                              limits_of(options), parallel());

@@ -30,6 +30,8 @@ struct MeshPlace {
   std::string mesh;
   /// Of each primitive one beyond its last triangle in the base mesh.
   std::vector<std::uint64_t> primitive_ends;
+  /// Progressive meshes in the file: they share the cost that a plan of prefixes may have.
+  std::size_t meshes_in_file = 1;
 };
 
 /// Decodes the payload of `asset` once, in ascending order of the prefixes of plan_prefixes, and

@@ -1,5 +1,6 @@
 // `zerotree validate`: exit codes, reports, measuring against the scan.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -106,6 +107,14 @@ TEST_F(ValidateCommand, GoesOnAfterAFileThatCannotBeRead) {
   EXPECT_EQ(report[0]["issues"]["numErrors"], 1);
   EXPECT_EQ(report[1]["issues"]["numErrors"], 2);
   EXPECT_EQ(report[2]["issues"]["numErrors"], 0);
+}
+
+TEST_F(ValidateCommand, EndsWithTwoForWhatIsNoFile) {
+  ASSERT_EQ(mkfifo(file("pipe.glb").c_str(), 0600), 0);
+  const CommandResult result = validate({file("pipe.glb"), file("good.glb")});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("pipe.glb: is no file"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("pipe.glb: could not be read\n"), std::string::npos) << result.out;
 }
 
 TEST_F(ValidateCommand, EndsWithTwoForAFileWithoutPermission) {

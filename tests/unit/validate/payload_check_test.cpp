@@ -11,6 +11,7 @@
 #include "encoded_assets.h"
 #include "gltf/progressive_writer.h"
 #include "sample_assets.h"
+#include "validate/prefix_plan.h"
 
 namespace zerotree::validate {
 namespace {
@@ -45,6 +46,21 @@ TEST(Prefixes, OfARightFileAreDecodedAtTheTableAndElsewhere) {
   EXPECT_LE(report.meshes[0].prefixes_decoded, asset.prefixes.size() + 8);
   const ValidationReport few = validate_asset(asset, {.random_prefixes = 0});
   EXPECT_EQ(few.meshes[0].prefixes_decoded, asset.prefixes.size());  // no byte is an entry
+}
+
+TEST(Prefixes, AreFewerWhereManyMeshesShareTheTime) {
+  const auto asset = sphere_asset();
+  const auto decoded = [&](std::size_t meshes) {
+    gltf::Issues issues;
+    const auto facts = check_payload(asset, {"/meshes/0", {}, meshes}, {}, {}, issues);
+    EXPECT_EQ(issues.empty(), facts.prefixes_decoded >= asset.prefixes.size());
+    return facts.prefixes_decoded;
+  };
+  const std::uint64_t cost = surface_cost(42, 642);
+  EXPECT_GT(decoded(1), asset.prefixes.size());
+  EXPECT_EQ(decoded(kMostCost / cost / 3), asset.prefixes.size());
+  EXPECT_EQ(decoded(kMostTableCost / cost / 3), 3u);
+  EXPECT_EQ(decoded(kMostTableCost), 1u);
 }
 
 TEST(Bounds, ThatAPrefixBetweenEntriesLeavesAreAWarning) {
