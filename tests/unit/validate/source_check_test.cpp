@@ -75,7 +75,7 @@ void scale_errors(json& root, double factor) {
 
 TEST(Source, ConfirmsATrueTable) {
   const ValidationReport report = file().validate([](json&) {});
-  EXPECT_EQ(codes(report), Codes{});
+  ASSERT_EQ(codes(report), Codes{});
   const std::vector<MeasuredEntry>& measured = report.meshes[0].measured;
   ASSERT_EQ(measured.size(), file().asset().prefixes.size());
   for (std::size_t i = 0; i < measured.size(); ++i) {
@@ -111,7 +111,7 @@ TEST(Source, FindsErrorsThatAreOverstated) {
     extension(root)["prefixes"][0]["geometricError"] =
         1.5 * file().asset().prefixes[0].geometric_error;
   });
-  EXPECT_EQ(codes(report), Codes{"PREFIX_ERROR_OVERSTATED"});
+  ASSERT_EQ(codes(report), Codes{"PREFIX_ERROR_OVERSTATED"});
   EXPECT_EQ(report.issues[0].pointer, kPrefixes + "0/geometricError");
 }
 
@@ -119,7 +119,7 @@ TEST(Source, FindsADiagonalThatIsNotItsOwn) {
   const ValidationReport report = file().validate([](json& root) {
     extension(root)["sourceDiagonal"] = 1.002 * file().asset().source_diagonal;
   });
-  EXPECT_EQ(codes(report), Codes{"SOURCE_DIAGONAL_MISMATCH"});
+  ASSERT_EQ(codes(report), Codes{"SOURCE_DIAGONAL_MISMATCH"});
   EXPECT_TRUE(report.issues[0].pointer.ends_with("/sourceDiagonal"));
 }
 
