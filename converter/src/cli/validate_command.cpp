@@ -1,7 +1,9 @@
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -92,6 +94,8 @@ ValidationReport validate_input(const InputFile& input, const validate::Validate
       problem = error.what();
     } catch (const std::bad_alloc&) {
       problem = input.path.string() + ": out of memory: lower --max-vertices";
+    } catch (const std::exception& error) {
+      problem = input.path.string() + ": internal error: " + error.what();
     }
   }
   std::fprintf(stderr, "zerotree: %s\n", problem.c_str());
@@ -214,7 +218,7 @@ void add_validate(CLI::App& app, int& exit_code) {
   command
       ->add_option("--max-vertices", arguments->options.max_vertices,
                    "Refuse surfaces of more vertices [16777216]")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xffffffff}));
   command->callback([arguments, &exit_code] { exit_code = run_validate(*arguments); });
 }
 
