@@ -8,7 +8,7 @@ set -euo pipefail
 run_packages=(
   cmake ninja-build g++ pkg-config ca-certificates
   libosd-dev libtinygltf-dev libopenmesh-dev libeigen3-dev libcli11-dev nlohmann-json3-dev
-  libtbb-dev libembree-dev libdraco-dev libmeshoptimizer-dev libstb-dev zlib1g-dev
+  libtbb-dev libembree-dev libdraco-dev libmeshoptimizer-dev libpugixml-dev libstb-dev zlib1g-dev
   fonts-dejavu-core libgtest-dev)
 test_packages=(
   assimp-utils draco gnuplot-nox python3 python3-jsonschema clang-format libbenchmark-dev

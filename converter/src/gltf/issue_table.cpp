@@ -312,6 +312,59 @@ constexpr std::array kTable = {
     IssueText{surface_out_of_bounds, "SURFACE_OUT_OF_BOUNDS", error,
               "A prefix decodes to a surface outside the stated bounds",
               "state bounds over the surfaces of all prefixes"},
+    IssueText{prefix_out_of_bounds, "PREFIX_OUT_OF_BOUNDS", warning,
+              "A prefix that is no entry of the table decodes to a surface outside the stated "
+              "bounds",
+              "widen the bounds by half a percent of sourceDiagonal"},
+    IssueText{bounds_loose, "BOUNDS_LOOSE", warning,
+              "The bounds are much larger than the surfaces of all prefixes decoded",
+              "state bounds over these surfaces with a margin of half a percent of sourceDiagonal"},
+    IssueText{source_diagonal_implausible, "SOURCE_DIAGONAL_IMPLAUSIBLE", warning,
+              "sourceDiagonal does not fit the size of the base mesh",
+              "state the bounding box diagonal of the mesh that was encoded, in the mesh's unit"},
+    IssueText{payload_trailing_bytes, "PAYLOAD_TRAILING_BYTES", warning,
+              "Bytes follow the end of the stream, which decoders ignore",
+              "cut the payload where the stream ends"},
+    IssueText{prefix_beyond_stream, "PREFIX_BEYOND_STREAM", warning,
+              "An entry of the prefixes table lies beyond the end of the stream",
+              "end the table with the end of the stream"},
+    IssueText{prefixes_sampled, "PREFIXES_SAMPLED", information,
+              "Not every entry of the prefixes table was decoded",
+              "shorten the table: a few entries say all that is needed"},
+    IssueText{base_seam, "BASE_SEAM", hint,
+              "Boundary edges of the base mesh lie on each other with vertices of their own",
+              "join the vertices if the surface is to be smooth there"},
+    IssueText{surface_seam_open, "SURFACE_SEAM_OPEN", warning,
+              "Boundary edges lie on each other in the base mesh and come apart in the surface of "
+              "a prefix",
+              "join the vertices before encoding if no gap is meant"},
+    IssueText{surface_cracked, "SURFACE_CRACKED", error,
+              "The surface of a prefix cracks between two primitives",
+              "let the primitives share the vertices of their common edges and encode again"},
+    IssueText{source_not_measured, "SOURCE_NOT_MEASURED", information,
+              "The file was not measured against its source",
+              "correct the errors first"},
+    IssueText{source_diagonal_mismatch, "SOURCE_DIAGONAL_MISMATCH", error,
+              "sourceDiagonal is not the diagonal of the source's bounding box",
+              "state that of the mesh that was encoded; check that this is the right source"},
+    IssueText{prefix_error_understated, "PREFIX_ERROR_UNDERSTATED", error,
+              "A prefix is farther from the source than its entry states",
+              "measure again and state the larger error; check that this is the right source"},
+    IssueText{prefix_error_overstated, "PREFIX_ERROR_OVERSTATED", warning,
+              "A prefix and all later ones are much closer to the source than their entry states",
+              "measure again and state the smaller error"},
+    IssueText{budget_bytes, "BUDGET_BYTES", error,
+              "The file and those it names are larger than allowed",
+              "convert with a smaller --target-size, or raise --max-bytes"},
+    IssueText{budget_error, "BUDGET_ERROR", error,
+              "The whole payload has a larger error than allowed",
+              "convert with a smaller --max-error, or raise --max-error here"},
+    IssueText{budget_triangles, "BUDGET_TRIANGLES", error,
+              "The finest surfaces have more triangles than allowed",
+              "convert with fewer --levels, or raise --max-triangles"},
+    IssueText{budget_error_unknown, "BUDGET_ERROR_UNKNOWN", error,
+              "No table states an error that could be compared with the one allowed",
+              "check the glTF file instead, which has a table"},
 };
 // clang-format on
 
@@ -320,7 +373,7 @@ constexpr bool is_in_order() {
     if (static_cast<std::size_t>(kTable[i].code) != i) return false;
   return true;
 }
-static_assert(is_in_order() && kTable.back().code == surface_out_of_bounds);
+static_assert(is_in_order() && kTable.back().code == budget_error_unknown);
 
 }  // namespace
 

@@ -108,6 +108,23 @@ enum class IssueCode {
   payload_too_large,
   surface_not_finite,
   surface_out_of_bounds,
+  prefix_out_of_bounds,
+  bounds_loose,
+  source_diagonal_implausible,
+  payload_trailing_bytes,
+  prefix_beyond_stream,
+  prefixes_sampled,
+  base_seam,
+  surface_seam_open,
+  surface_cracked,
+  source_not_measured,
+  source_diagonal_mismatch,
+  prefix_error_understated,
+  prefix_error_overstated,
+  budget_bytes,
+  budget_error,
+  budget_triangles,
+  budget_error_unknown,
 };
 
 /// Who named a code.

@@ -194,19 +194,12 @@ void read_base(GltfDocument& document, const JsonCursor& mesh, ProgressiveAsset&
   }
 }
 
-// The first node that shows the mesh puts it in place; nodes above it are left out.
-Placement placement_of(const JsonCursor& root, std::size_t mesh) {
-  const JsonCursor nodes = root.member("nodes");
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const JsonCursor node = nodes.element(i);
-    if (!node.member("mesh").exists() || node.member("mesh").index() != mesh) continue;
-    const Eigen::Vector3d scale = read_vector(node.member("scale"), Eigen::Vector3d::Ones());
-    const bool is_uniform = scale.x() > 0 && scale == Eigen::Vector3d::Constant(scale.x());
-    if (!is_uniform || node.member("rotation").exists() || node.member("matrix").exists())
-      return {};
-    return {scale.x(), read_vector(node.member("translation"), Eigen::Vector3d::Zero())};
-  }
-  return {};
+// Nodes above it are left out.
+Placement placement_by(const JsonCursor& node) {
+  const Eigen::Vector3d scale = read_vector(node.member("scale"), Eigen::Vector3d::Ones());
+  const bool is_uniform = scale.x() > 0 && scale == Eigen::Vector3d::Constant(scale.x());
+  if (!is_uniform || node.member("rotation").exists() || node.member("matrix").exists()) return {};
+  return {scale.x(), read_vector(node.member("translation"), Eigen::Vector3d::Zero())};
 }
 
 // As read_mesh; may name an issue twice, as the schema's and as that of a step.
@@ -289,6 +282,21 @@ std::optional<ProgressiveAsset> read_mesh(GltfDocument& document, std::size_t me
   return asset;
 }
 
+std::vector<Placement> mesh_placements(const GltfDocument& document) {
+  std::vector<std::optional<Placement>> placements(document.root().member("meshes").size());
+  const JsonCursor nodes = document.root().member("nodes");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const JsonCursor node = nodes.element(i);
+    if (!node.member("mesh").exists()) continue;
+    const std::uint64_t mesh = node.member("mesh").index();
+    if (mesh < placements.size() && !placements[mesh]) placements[mesh] = placement_by(node);
+  }
+  std::vector<Placement> result;
+  for (const std::optional<Placement>& placement : placements)
+    result.push_back(placement.value_or(Placement{}));
+  return result;
+}
+
 ProgressiveAsset read_progressive(const std::filesystem::path& path) {
   const auto fail = [&](const Issue& issue) {
     const std::string pointer = issue.pointer.empty() ? "" : issue.pointer + ": ";
@@ -305,7 +313,7 @@ ProgressiveAsset read_progressive(const std::filesystem::path& path) {
                       path.string() + ": /meshes: " + std::to_string(meshes.size()) +
                           " meshes are progressive: split the file, one mesh can be read");
         asset = read_mesh(document, meshes.front(), issues);
-        if (asset) asset->placement = placement_of(document.root(), meshes.front());
+        if (asset) asset->placement = mesh_placements(document)[meshes.front()];
       }))
     fail(issues.back());
   // A payload that is cut off decodes like any prefix; everything else would decode wrongly.

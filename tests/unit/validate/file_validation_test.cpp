@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "changed_files.h"
 #include "encoded_assets.h"
 #include "export/atomic_file.h"
 #include "gltf/glb_container.h"
@@ -18,22 +19,13 @@ namespace zerotree::validate {
 namespace {
 
 using nlohmann::json;
+using test::codes;
+using test::extension;
 using test::TemporaryFolder;
+using test::validate_bytes;
+using test::with_json;
 
 constexpr const char* kExtensionPointer = "/meshes/0/extensions/ZEROTREE_mesh_progressive";
-
-std::vector<std::string> codes(const ValidationReport& report) {
-  std::vector<std::string> ids;
-  for (const gltf::Issue& issue : report.issues) ids.push_back(gltf::issue_text(issue.code).id);
-  return ids;
-}
-
-ValidationReport validate_bytes(std::span<const std::uint8_t> bytes, const char* name = "a.glb",
-                                const ValidateOptions& options = {}) {
-  const TemporaryFolder folder;
-  exporter::write_file_atomically(folder / name, bytes);
-  return validate_file(folder / name, options);
-}
 
 class EachShape : public testing::TestWithParam<test::Shape> {};
 
@@ -75,26 +67,11 @@ TEST_P(EachShape, RightStreamsHaveNoIssue) {
 INSTANTIATE_TEST_SUITE_P(Shapes, EachShape, testing::ValuesIn(test::base_shapes()),
                          [](const auto& shape) { return shape.param.name; });
 
-// A right file whose JSON is changed.
-std::vector<std::uint8_t> with_json(const std::function<void(json&)>& change) {
-  const auto whole = gltf::glb_bytes(test::encoded_asset(test::base_shapes()[0]));
-  const gltf::GlbChunks chunks = gltf::split_glb(whole);
-  json root = json::parse(chunks.json);
-  change(root);
-  std::vector<std::uint8_t> bytes = gltf::glb_head(root.dump(), chunks.binary.size());
-  bytes.insert(bytes.end(), chunks.binary.begin(), chunks.binary.end());
-  return bytes;
-}
-
 struct BrokenVariant {
   const char* code;
   const char* pointer;
   std::function<void(json&)> change;
 };
-
-json& extension(json& root) {
-  return root["meshes"][0]["extensions"][gltf::kExtensionName];
-}
 
 // clang-format off
 const std::vector<BrokenVariant>& broken_variants() {

@@ -1,0 +1,245 @@
+// `zerotree validate`: exit codes, reports, measuring against the scan.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "command_runner.h"
+#include "gltf/glb_container.h"
+#include "shapes.h"
+
+namespace zerotree::test {
+namespace {
+
+using nlohmann::json;
+
+// A converted scan and what a build folder holds beside it, made once.
+class ValidateCommand : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    files_ = new TemporaryFolder;
+    write_off(file("scan.off"), add_bumps(sphere(2), 0.02, 4));
+    const CommandResult result =
+        run_zerotree({"convert", file("scan.off"), "-o", file("good.glb"), "--stream",
+                      file("good.zt"), "--base-vertices", "40", "--levels", "2"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    std::ofstream(file("plain.gltf")) << R"({"asset":{"version":"2.0"}})";
+    std::ofstream(file("text.glb")) << "no glTF";
+    std::vector<char> bytes = read_bytes(file("good.glb"));
+    bytes.resize(bytes.size() - 20);
+    write(file("cut.glb"), bytes);
+    std::filesystem::create_directories(file("empty"));
+  }
+  static void TearDownTestSuite() { delete files_; }
+
+  static std::string file(const std::string& name) { return *files_ / name; }
+  static void write(const std::string& path, const std::vector<char>& bytes) {
+    std::ofstream(path, std::ios::binary)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  }
+  static CommandResult validate(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "validate");
+    return run_zerotree(arguments);
+  }
+  // good.glb with its JSON changed.
+  static void write_changed(const std::string& path, const std::function<void(json&)>& change) {
+    const std::vector<char> whole = read_bytes(file("good.glb"));
+    const std::vector<std::uint8_t> bytes(whole.begin(), whole.end());
+    const gltf::GlbChunks chunks = gltf::split_glb(bytes);
+    json root = json::parse(chunks.json);
+    change(root);
+    const std::vector<std::uint8_t> head = gltf::glb_head(root.dump(), chunks.binary.size());
+    std::vector<char> changed(head.begin(), head.end());
+    changed.insert(changed.end(), chunks.binary.begin(), chunks.binary.end());
+    write(path, changed);
+  }
+  static json& table(json& root) {
+    return root["meshes"][0]["extensions"]["ZEROTREE_mesh_progressive"]["prefixes"];
+  }
+
+ private:
+  static TemporaryFolder* files_;
+};
+
+TemporaryFolder* ValidateCommand::files_ = nullptr;
+
+TEST_F(ValidateCommand, EndsWithZeroWithoutErrors) {
+  EXPECT_EQ(validate({file("good.glb"), file("good.zt"), file("plain.gltf")}).exit_code, 0);
+  const CommandResult plain = validate({file("plain.gltf")});
+  EXPECT_EQ(plain.exit_code, 0);
+  EXPECT_NE(plain.out.find("info EXTENSION_ABSENT"), std::string::npos);
+}
+
+TEST_F(ValidateCommand, EndsWithOneWithErrors) {
+  EXPECT_EQ(validate({file("text.glb")}).exit_code, 1);
+  EXPECT_EQ(validate({file("cut.glb")}).exit_code, 1);
+  const CommandResult many = validate({file("good.glb"), file("cut.glb"), file("good.zt")});
+  EXPECT_EQ(many.exit_code, 1);
+  EXPECT_NE(many.out.find("good.zt: 0 errors, 0 warnings\n"), std::string::npos) << many.out;
+  EXPECT_NE(many.out.find("\n3 files: 2 errors, 0 warnings\n"), std::string::npos) << many.out;
+}
+
+TEST_F(ValidateCommand, EndsWithTwoWhereItCouldNotRun) {
+  EXPECT_EQ(validate({}).exit_code, 2);
+  EXPECT_EQ(validate({"--frobnicate", file("good.glb")}).exit_code, 2);
+  EXPECT_EQ(validate({file("empty")}).exit_code, 2);
+  EXPECT_EQ(validate({file("good.glb"), "-o", file("no/such/report.json")}).exit_code, 2);
+  EXPECT_EQ(validate({file("good.glb"), "--max-error", "much"}).exit_code, 2);
+  EXPECT_EQ(validate({file("good.glb"), "--max-bytes", "0"}).exit_code, 2);
+  const CommandResult missing = validate({file("missing.glb")});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_TRUE(missing.err.starts_with("zerotree: ")) << missing.err;
+  EXPECT_NE(missing.err.find("missing.glb"), std::string::npos) << missing.err;
+}
+
+TEST_F(ValidateCommand, GoesOnAfterAFileThatCannotBeRead) {
+  const CommandResult result =
+      validate({file("missing.glb"), file("cut.glb"), file("good.glb"), "-o", file("report.json")});
+  EXPECT_EQ(result.exit_code, 2) << "2 wins over 1";
+  const json report = json::parse(std::ifstream(file("report.json")));
+  ASSERT_EQ(report.size(), 3u);
+  EXPECT_EQ(report[0]["uri"], file("missing.glb"));
+  EXPECT_EQ(report[0]["issues"]["numErrors"], 1);
+  EXPECT_EQ(report[1]["issues"]["numErrors"], 2);
+  EXPECT_EQ(report[2]["issues"]["numErrors"], 0);
+}
+
+TEST_F(ValidateCommand, EndsWithTwoForWhatIsNoFile) {
+  ASSERT_EQ(mkfifo(file("pipe.glb").c_str(), 0600), 0);
+  const CommandResult result = validate({file("pipe.glb"), file("good.glb")});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("pipe.glb: is no file"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("pipe.glb: could not be read\n"), std::string::npos) << result.out;
+}
+
+TEST_F(ValidateCommand, EndsWithTwoForAFileWithoutPermission) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may read everything";
+  write(file("secret.glb"), read_bytes(file("good.glb")));
+  std::filesystem::permissions(file("secret.glb"), std::filesystem::perms::none);
+  EXPECT_EQ(validate({file("secret.glb")}).exit_code, 2);
+}
+
+TEST_F(ValidateCommand, SearchesFolders) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path / "a");
+  for (const char* name : {"z.glb", "a/b.glb"}) write(folder / name, read_bytes(file("good.glb")));
+  const CommandResult result = validate({folder.path.string(), "-o", file("folder.json")});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const json report = json::parse(std::ifstream(file("folder.json")));
+  ASSERT_EQ(report.size(), 2u);
+  EXPECT_EQ(report[0]["uri"], folder / "a/b.glb");
+  // A folder of one file gives an array too: what reads it need not know how many there are.
+  EXPECT_EQ(validate({(folder.path / "a").string(), "-o", file("folder.json")}).exit_code, 0);
+  EXPECT_TRUE(json::parse(std::ifstream(file("folder.json"))).is_array());
+  EXPECT_EQ(validate({folder / "z.glb", "-o", file("one.json")}).exit_code, 0);
+  EXPECT_TRUE(json::parse(std::ifstream(file("one.json"))).is_object());
+}
+
+TEST_F(ValidateCommand, KeepsBudgets) {
+  const auto size = std::filesystem::file_size(file("good.glb"));
+  const std::string good = file("good.glb");
+  EXPECT_EQ(validate({good, "--max-bytes", std::to_string(size)}).exit_code, 0);
+  EXPECT_EQ(validate({good, "--max-bytes", "1M", "--max-error", "0.1", "--max-triangles", "100000"})
+                .exit_code,
+            0);
+  const CommandResult bytes = validate({good, "--max-bytes", "1k"});
+  EXPECT_EQ(bytes.exit_code, 1);
+  EXPECT_NE(bytes.out.find("BUDGET_BYTES"), std::string::npos) << bytes.out;
+  EXPECT_NE(bytes.out.find(std::to_string(size) + " bytes, allowed are 1000"), std::string::npos);
+  EXPECT_EQ(validate({good, "--max-triangles", "10"}).exit_code, 1);
+  EXPECT_EQ(validate({good, "--max-error", "1e-9"}).exit_code, 1);
+  EXPECT_EQ(validate({good, "--max-error", "0.001mm"}).exit_code, 1);
+  EXPECT_EQ(validate({file("good.zt"), "--max-error", "0.1"}).exit_code, 1);
+}
+
+TEST_F(ValidateCommand, AgreesWithConvertOnTheErrorReached) {
+  ASSERT_EQ(run_zerotree({"convert", file("scan.off"), "-o", file("exact.glb"), "--base-vertices",
+                          "40", "--max-error", "2e-3"})
+                .exit_code,
+            0);
+  EXPECT_EQ(validate({file("exact.glb"), "--max-error", "2e-3"}).exit_code, 0);
+}
+
+TEST_F(ValidateCommand, PrintsErrorsOnlyIfAsked) {
+  const CommandResult good = validate({"--quiet", file("good.glb"), file("plain.gltf")});
+  EXPECT_EQ(good.out + good.err, "");
+  const CommandResult bad = validate({"-q", file("good.glb"), file("text.glb")});
+  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_TRUE(bad.out.starts_with(file("text.glb") + ": error ")) << bad.out;
+  EXPECT_EQ(std::count(bad.out.begin(), bad.out.end(), '\n'), 1) << bad.out;
+}
+
+TEST_F(ValidateCommand, WritesReportsOfNamesThatAreNoText) {
+  const std::string odd = file("odd\xff<&>.glb");
+  write(odd, read_bytes(file("good.glb")));
+  const CommandResult result =
+      validate({odd, file("cut.glb"), "--junit", file("odd.xml"), "-o", file("odd.json")});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_EQ(json::parse(std::ifstream(file("odd.json"))).size(), 2u);
+  const std::vector<char> xml = read_bytes(file("odd.xml"));
+  EXPECT_NE(std::string(xml.begin(), xml.end()).find("odd\xef\xbf\xbd&lt;&amp;>.glb"),
+            std::string::npos);
+}
+
+TEST_F(ValidateCommand, ConfirmsWhatConvertMeasured) {
+  const CommandResult result =
+      validate({file("good.glb"), "--source", file("scan.off"), "-o", file("measured.json")});
+  EXPECT_EQ(result.exit_code, 0) << result.out;
+  EXPECT_NE(result.out.find("0 errors, 0 warnings"), std::string::npos) << result.out;
+  const json report = json::parse(std::ifstream(file("measured.json")));
+  const json& mesh = report["info"]["progressiveMeshes"][0];
+  EXPECT_EQ(mesh["measuredPrefixes"].size(), mesh["prefixCount"]);
+}
+
+TEST_F(ValidateCommand, FindsATableThatPromisesTooMuch) {
+  write_changed(file("boast.glb"), [](json& root) {
+    for (json& entry : table(root))
+      entry["geometricError"] = entry["geometricError"].get<double>() / 2;
+  });
+  EXPECT_EQ(validate({file("boast.glb")}).exit_code, 0);
+  const CommandResult result = validate({file("boast.glb"), "--source", file("scan.off")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.out.find("PREFIX_ERROR_UNDERSTATED"), std::string::npos) << result.out;
+}
+
+TEST_F(ValidateCommand, FindsAnotherScan) {
+  write_off(file("other.off"), add_bumps(sphere(2), 0.05, 2));
+  const CommandResult result = validate({file("good.glb"), "--source", file("other.off")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.out.find("SOURCE_DIAGONAL_MISMATCH"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("PREFIX_ERROR_UNDERSTATED"), std::string::npos) << result.out;
+}
+
+TEST_F(ValidateCommand, MeasuresOneFileAgainstItsScan) {
+  const std::string scan = file("scan.off");
+  EXPECT_EQ(validate({file("good.glb"), file("good.zt"), "--source", scan}).exit_code, 2);
+  EXPECT_EQ(validate({file("good.zt"), "--source", scan}).exit_code, 2);
+  EXPECT_EQ(validate({file("plain.gltf"), "--source", scan}).exit_code, 2);
+  EXPECT_EQ(validate({file("good.glb"), "--source", file("missing.off")}).exit_code, 2);
+  EXPECT_EQ(validate({file("good.glb"), "--fill-holes", "0.1"}).exit_code, 2);
+}
+
+// The errors of a scan with filled holes are those of the filled one.
+TEST_F(ValidateCommand, MeasuresAgainstTheScanAsItWasChanged) {
+  TriangleMesh open = add_bumps(sphere(3), 0.02, 4);
+  std::erase_if(open.triangles, [&](const Triangle& t) {
+    return open.positions[t[0]].z() > 0.9 && open.positions[t[1]].z() > 0.9;
+  });
+  write_off(file("open.off"), open);
+  ASSERT_EQ(run_zerotree({"convert", file("open.off"), "-o", file("filled.glb"), "--fill-holes",
+                          "1.0", "--base-vertices", "60", "--levels", "2"})
+                .exit_code,
+            0);
+  EXPECT_EQ(validate({file("filled.glb"), "--source", file("open.off")}).exit_code, 1);
+  const CommandResult same =
+      validate({file("filled.glb"), "--source", file("open.off"), "--fill-holes", "1.0"});
+  EXPECT_EQ(same.exit_code, 0) << same.out;
+}
+
+}  // namespace
+}  // namespace zerotree::test
