@@ -56,11 +56,8 @@ std::string counts_of(std::size_t errors, std::size_t warnings) {
 
 void print_report(const ValidationReport& report, bool is_quiet) {
   for (const gltf::Issue& issue : report.issues) {
-    const gltf::IssueText& text = gltf::issue_text(issue.code);
-    if (report.is_unreadable || (is_quiet && text.severity != Severity::error)) continue;
-    std::printf("%s: %s %s%s%s: %s\n", report.uri.c_str(), validate::severity_name(text.severity),
-                text.id, issue.pointer.empty() ? "" : " at ", issue.pointer.c_str(),
-                gltf::issue_message(issue).c_str());
+    if (report.is_unreadable || (is_quiet && !gltf::is_error(issue))) continue;
+    std::printf("%s: %s\n", report.uri.c_str(), validate::issue_line(issue).c_str());
   }
   if (is_quiet) return;
   std::printf("%s: %s\n", report.uri.c_str(),

@@ -109,8 +109,7 @@ void validate_gltf(const std::filesystem::path& path, std::vector<std::uint8_t> 
                    const ValidateOptions& options, const Progress& progress,
                    ValidationReport& report) {
   const std::uint64_t file_bytes = file.size();
-  std::optional<GltfDocument> document(std::in_place, path, std::move(file),
-                                       report.issues);
+  std::optional<GltfDocument> document(std::in_place, path, std::move(file), report.issues);
   gltf::check_structure(*document, report.issues);
   read_asset_info(*document, report);
   if (options.budgets.max_bytes > 0)

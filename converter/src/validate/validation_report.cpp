@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "validate/printable_text.h"
+
 namespace zerotree::validate {
 namespace {
 
@@ -81,6 +83,13 @@ const char* severity_name(Severity severity) {
       return "hint";
   }
   return "";
+}
+
+std::string issue_line(const gltf::Issue& issue) {
+  const gltf::IssueText& row = gltf::issue_text(issue.code);
+  std::string line = std::string(severity_name(row.severity)) + " " + row.id;
+  if (!issue.pointer.empty()) line.append(" at ").append(issue.pointer);
+  return printable_text(line.append(": ").append(gltf::issue_message(issue)));
 }
 
 ordered_json to_json(const ValidationReport& report) {

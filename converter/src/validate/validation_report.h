@@ -65,6 +65,9 @@ std::size_t count_issues(const ValidationReport& report, gltf::Severity severity
 /// "error", "warning", "info" or "hint".
 const char* severity_name(gltf::Severity severity);
 
+/// "severity CODE at pointer: message", safe to print: files have no say over the terminal.
+std::string issue_line(const gltf::Issue& issue);
+
 /// {uri, mimeType, validatorVersion, issues {numErrors, ..., messages}, info {...}}. Bytes that are
 /// no UTF-8 stay as they are: dump it with error_handler_t::replace.
 nlohmann::ordered_json to_json(const ValidationReport& report);
