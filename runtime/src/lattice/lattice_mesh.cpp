@@ -23,8 +23,8 @@ LatticeMesh::LatticeMesh(const bitstream::BaseTopology& base,
       fans_(base, edges, memory) {
   for (std::uint32_t strip = 0; strip < fans_.strips().size(); ++strip) {
     const BaseStrip& s = fans_.strips()[strip];
-    sides_[s.left.face][s.left.side] = {strip, false};
-    if (!s.is_boundary()) sides_[s.right.face][s.right.side] = {strip, true};
+    sides_[s.faces[0]][s.sides[0]] = {strip, false};
+    if (!s.is_boundary()) sides_[s.faces[1]][s.sides[1]] = {strip, true};
   }
 }
 
@@ -74,10 +74,10 @@ std::vector<std::uint32_t> LatticeMesh::vertices_of(int level, std::size_t trian
   }
   const auto n = static_cast<std::size_t>(points.segments);
   for (std::size_t side = 0; side < 3; ++side) {
-    const auto [strip, is_right] = sides_[triangle][side];
+    const Side seen = sides_[triangle][side];
     for (std::size_t i = 1; i < n; ++i)
       vertices[points.side_points[side][i]] =
-          strip_vertex(fans_.strips()[strip], level, is_right ? n - i : i);
+          strip_vertex(seen.strip(), level, seen.is_right() ? n - i : i);
     vertices[points.side_points[side][0]] = corners_[triangle][side];
   }
   return vertices;

@@ -44,10 +44,17 @@ class LatticeMesh {
   /// Triangles of the group that there are; the last group may have fewer than kLanes.
   std::size_t lanes_used(std::size_t group) const;
 
-  /// A side of a base triangle: its strip, and whether the triangle is on its right.
-  struct Side {
-    std::uint32_t strip;
-    bool is_right;
+  /// A side of a base triangle: its strip, and whether the triangle is on its right. Packed, for
+  /// there may be millions.
+  class Side {
+   public:
+    Side() = default;
+    Side(std::uint32_t strip, bool is_right) : packed_((strip << 1) | (is_right ? 1u : 0u)) {}
+    std::uint32_t strip() const { return packed_ >> 1; }
+    bool is_right() const { return (packed_ & 1) != 0; }
+
+   private:
+    std::uint32_t packed_ = 0;
   };
   const std::array<Side, 3>& sides(std::size_t triangle) const { return sides_[triangle]; }
 
@@ -58,10 +65,9 @@ class LatticeMesh {
                                       std::uint64_t{run.count} * triangle);
   }
   /// Vertex of point `i` of a strip at `level`, which is no end of it.
-  std::uint32_t strip_vertex(const BaseStrip& strip, int level, std::size_t i) const {
-    const auto& points = strip_points_[static_cast<std::size_t>(level)];
-    const StripPoint& point = points[strip.is_reversed ? points.size() - 1 - i : i];
-    return point.first + (strip.refiner_edge << point.shift);
+  std::uint32_t strip_vertex(std::uint32_t strip, int level, std::size_t i) const {
+    const StripPoint& point = strip_points_[static_cast<std::size_t>(level)][i];
+    return point.first + (strip << point.shift);
   }
 
   /// Vertex of each point of `level` in base triangle `triangle`.

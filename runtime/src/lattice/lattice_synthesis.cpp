@@ -215,8 +215,8 @@ void LatticeSynthesis::lift_strip(int level, std::size_t number) {
     PointF lift = weight * (moves[i - 1] + moves[i]);
     if (!strip.is_sharp) {
       const std::size_t back = moves.size() - i;
-      lift += lifts_.get(strip.left.face, lattice.side_points[strip.left.side][i]) +
-              lifts_.get(strip.right.face, lattice.side_points[strip.right.side][back]);
+      lift += lifts_.get(strip.faces[0], lattice.side_points[strip.sides[0]][i]) +
+              lifts_.get(strip.faces[1], lattice.side_points[strip.sides[1]][back]);
     }
     set_on_strip(strip, lattice, i, lift, lifts_);
   }
@@ -230,9 +230,9 @@ void LatticeSynthesis::finish_strip(int level, std::size_t number, Scratch& scra
   const EndWeights weights = strip_weights(strip);
   const float dip = weights.dip / weights.lift;
   LatticePoints& points = points_at(level + 1);
-  const auto& row = fine.side_points[strip.left.side];
+  const auto& row = fine.side_points[strip.sides[0]];
   const auto add = [&](std::size_t i, const PointF& move) {
-    set_on_strip(strip, fine, i, points.get(strip.left.face, row[i]) + move, points);
+    set_on_strip(strip, fine, i, points.get(strip.faces[0], row[i]) + move, points);
   };
   for_lanes(1, moves.size(), [&](std::size_t i, std::size_t lanes) {
     const LanePoint even = even_on_strip(strip, lifts, i) + dip * lifts.row.lanes(i);
@@ -255,7 +255,7 @@ void LatticeSynthesis::limit_strip(int level, std::size_t number, Scratch& scrat
                          const StridedVectors& target) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const PointF value = point_in(values, lane);
-      target.write(mesh_.strip_vertex(strip, level, i + lane), &value);
+      target.write(mesh_.strip_vertex(static_cast<std::uint32_t>(number), level, i + lane), &value);
     }
   };
   for_lanes(1, static_cast<std::size_t>(lattice.segments), [&](std::size_t i, std::size_t lanes) {
@@ -272,14 +272,14 @@ void LatticeSynthesis::limit_strip(int level, std::size_t number, Scratch& scrat
 
 PointF LatticeSynthesis::spoke_point(const BaseSpoke& spoke, const LatticeLevel& level,
                                      const LatticePoints& points) const {
-  const BaseStrip& strip = mesh_.fans().strips()[spoke.strip];
-  const auto& row = level.side_points[strip.left.side];
-  return points.get(strip.left.face, row[spoke.is_head ? row.size() - 2 : 1]);
+  const BaseStrip& strip = mesh_.fans().strips()[spoke.strip()];
+  const auto& row = level.side_points[strip.sides[0]];
+  return points.get(strip.faces[0], row[spoke.is_head() ? row.size() - 2 : 1]);
 }
 
 PointF LatticeSynthesis::child_at_corner(const BaseFans::View& fan, const LatticeLevel& level,
                                          const LatticePoints& points) const {
-  const auto [face, corner] = fan.corners.front();
+  const auto [face, corner] = mesh_.fans().corner_after(fan.spokes.front());
   PointF child = fan.vertex.child * points.get(face, level.side_points[corner][0]);
   for (std::size_t k = 0; k < fan.spokes.size(); ++k)
     child += fan.weights[k].child * spoke_point(fan.spokes[k], level, points);
@@ -289,7 +289,10 @@ PointF LatticeSynthesis::child_at_corner(const BaseFans::View& fan, const Lattic
 void LatticeSynthesis::set_corner(const BaseFans::View& fan, const PointF& value,
                                   LatticePoints& points) const {
   // Corner k is point k at every level.
-  for (const auto& [face, corner] : fan.corners) points.set(face, corner, value);
+  for (const BaseSpoke& spoke : fan.spokes) {
+    const auto [face, corner] = mesh_.fans().corner_after(spoke);
+    if (face != bitstream::kNone) points.set(face, corner, value);
+  }
 }
 
 void LatticeSynthesis::subdivide_corner(int level, std::size_t vertex) {
@@ -305,8 +308,8 @@ void LatticeSynthesis::move_group(int level, std::size_t group, Scratch& scratch
   details.mean_area = static_cast<float>(mean_area_);
   for (std::size_t lane = 0; lane < details.lanes_used; ++lane)
     for (std::size_t side = 0; side < 3; ++side) {
-      const auto [strip, is_right] = mesh_.sides(group * kLanes + lane)[side];
-      details.sides[lane][side] = {strip, is_right ? 1u : 0u};
+      const LatticeMesh::Side seen = mesh_.sides(group * kLanes + lane)[side];
+      details.sides[lane][side] = {seen.strip(), seen.is_right() ? 1u : 0u};
     }
   move_inside(mesh_.lattice(level), mesh_.lattice(level + 1), details, scratch.moves.data(),
               points_at(level + 1).group(group), lifts_.group(group));
@@ -316,15 +319,15 @@ void LatticeSynthesis::lift_corner(int level, std::size_t vertex) {
   const BaseFans::View fan = mesh_.fans().fan(vertex);
   PointF lift;
   for (std::size_t k = 0; k < fan.spokes.size(); ++k) {
-    const std::span<const PointF> moves = strip_moves(level, fan.spokes[k].strip);
-    lift += fan.weights[k].lift * (fan.spokes[k].is_head ? moves.back() : moves.front());
+    const std::span<const PointF> moves = strip_moves(level, fan.spokes[k].strip());
+    lift += fan.weights[k].lift * (fan.spokes[k].is_head() ? moves.back() : moves.front());
   }
   set_corner(fan, lift, lifts_);
 }
 
 void LatticeSynthesis::finish_corner(int level, std::size_t vertex) {
   const BaseFans::View fan = mesh_.fans().fan(vertex);
-  const auto [face, corner] = fan.corners.front();
+  const auto [face, corner] = mesh_.fans().corner_after(fan.spokes.front());
   LatticePoints& points = points_at(level + 1);
   const PointF dip = fan.dip_per_lift * lifts_.get(face, corner);
   set_corner(fan,
@@ -335,7 +338,7 @@ void LatticeSynthesis::finish_corner(int level, std::size_t vertex) {
 void LatticeSynthesis::limit_corner(int level, std::size_t vertex, const LimitOutput& output) {
   const BaseFans::View fan = mesh_.fans().fan(vertex);
   const LatticeLevel& lattice = mesh_.lattice(level);
-  const auto [face, corner] = fan.corners.front();
+  const auto [face, corner] = mesh_.fans().corner_after(fan.spokes.front());
   const PointF centre = points_at(level).get(face, corner);
   PointF position = fan.vertex.position * centre, tangent1, tangent2;
   for (std::size_t k = 0; k < fan.spokes.size(); ++k) {

@@ -32,14 +32,14 @@ StripRows gather_rows(const BaseStrip& strip, const LatticeLevel& level,
   StripRows rows{{memory, n + 1 + kLanes},
                  {memory + room, n + 1 + kLanes},
                  {memory + 2 * room, n + 1 + kLanes}};
-  const auto& row = level.side_points[strip.left.side];
-  const auto& left = level.near_points[strip.left.side];
-  for (std::size_t i = 0; i <= n; ++i) rows.row.set(i, points.get(strip.left.face, row[i]));
-  for (std::size_t i = 0; i < n; ++i) rows.left.set(i, points.get(strip.left.face, left[i]));
+  const auto& row = level.side_points[strip.sides[0]];
+  const auto& left = level.near_points[strip.sides[0]];
+  for (std::size_t i = 0; i <= n; ++i) rows.row.set(i, points.get(strip.faces[0], row[i]));
+  for (std::size_t i = 0; i < n; ++i) rows.left.set(i, points.get(strip.faces[0], left[i]));
   if (strip.is_boundary()) return rows;
-  const auto& right = level.near_points[strip.right.side];
+  const auto& right = level.near_points[strip.sides[1]];
   for (std::size_t i = 0; i < n; ++i)
-    rows.right.set(i, points.get(strip.right.face, right[n - 1 - i]));
+    rows.right.set(i, points.get(strip.faces[1], right[n - 1 - i]));
   return rows;
 }
 

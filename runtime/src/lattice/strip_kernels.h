@@ -67,10 +67,10 @@ StripRows gather_rows(const BaseStrip& strip, const LatticeLevel& level,
 /// Writes point `i` of the strip into the lattices on both sides.
 inline void set_on_strip(const BaseStrip& strip, const LatticeLevel& level, std::size_t i,
                          const PointF& value, LatticePoints& points) {
-  points.set(strip.left.face, level.side_points[strip.left.side][i], value);
+  points.set(strip.faces[0], level.side_points[strip.sides[0]][i], value);
   if (strip.is_boundary()) return;
   const auto n = static_cast<std::size_t>(level.segments);
-  points.set(strip.right.face, level.side_points[strip.right.side][n - i], value);
+  points.set(strip.faces[1], level.side_points[strip.sides[1]][n - i], value);
 }
 
 /// The children from point i on, which is no end, and of the segments from i on.
