@@ -104,7 +104,7 @@ void DetailState::scatter(const ChannelCells& cells, int level, std::size_t inde
   const std::uint32_t rest = spread_difference(last ^ row, place);
   const std::array<Side, 2>& sides = sides_[cell.base_edge];
   const auto scatter_in = [&](const Side& side, const SmallTriangle& triangle) {
-    if (side.exists) scatter_to_triangle<kNormalChannel>(cells, level, side, triangle, sign);
+    if (side.exists()) scatter_to_triangle<kNormalChannel>(cells, level, side, triangle, sign);
   };
   scatter_in(sides[second ? 1 : 0], {rest, place, row, 0});
   if (row == 0) {
@@ -120,11 +120,11 @@ inline void DetailState::scatter_to_triangle(const ChannelCells& cells, int leve
   const std::uint32_t last = spread_last(level);
   const std::array<std::uint32_t, 3> corner = {triangle.rest, triangle.place, triangle.row};
   for (int j = 1; j < 3; ++j) {
-    const std::uint32_t edge = side.edges[j] >> 1;
+    const std::uint32_t seen = side.next[j - 1], edge = seen >> 1;
     const std::uint32_t row = spread_sum(corner[(j + 2) % 3], triangle.row_offset);
     const std::uint32_t place = corner[(j + 1) % 3];
     // A coordinate counted from the other end is its complement.
-    const std::uint32_t turn = last & (0u - (side.edges[j] & 1));
+    const std::uint32_t turn = last & (0u - (seen & 1));
     const std::uint32_t end = spread_sum(place, row);
     const std::size_t i = spread_cell_index(level, {edge, end ^ turn, place ^ turn});
     add(cells.around[i], kFaceNeighbour);

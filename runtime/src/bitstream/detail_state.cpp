@@ -34,9 +34,9 @@ void DetailState::number_sides(const BaseEdges& base) {
   for (std::size_t e = 0; e < base.edges.size(); ++e) {
     for (int s = 0; s < 2; ++s) {
       const std::uint32_t face = base.edges[e].faces[s];
-      sides_[e][s].exists = face != kNone;
-      for (int j = 0; j < 3 && face != kNone; ++j) {
-        sides_[e][s].edges[j] = edge_and_side(face, (base.edges[e].local[s] + j) % 3);
+      sides_[e][s].next = {kNone, kNone};
+      for (int j = 0; j < 2 && face != kNone; ++j) {
+        sides_[e][s].next[j] = edge_and_side(face, (base.edges[e].local[s] + j + 1) % 3);
       }
     }
   }
@@ -88,7 +88,7 @@ void DetailState::mark_absent(int level, std::uint8_t* flags) const {
   std::fill(flags + size, flags + block_count(level) * kBlockCells, kAbsent);
   const std::size_t image = std::size_t{1} << (2 * level);
   for (std::size_t e = 0; e < sides_.size(); ++e) {
-    if (sides_[e][1].exists) continue;
+    if (sides_[e][1].exists()) continue;
     for (std::size_t i = e * image; i < (e + 1) * image; ++i) {
       const SpreadCell cell = spread_cell_at(level, i);
       if (cell.p < cell.q) flags[i] = kAbsent;

@@ -103,11 +103,11 @@ class DetailState {
   static std::uint64_t memory(std::uint64_t base_edge_count, int levels, int planes = kMostPlanes);
 
  private:
-  // One side of a base edge: the numbers of the base edges of its face, counted from this one, each
-  // with the side on which it sees that face in bit 0.
+  // One side of a base edge: the numbers of the two base edges that come after this one in its
+  // face, each with the side on which it sees that face in bit 0.
   struct Side {
-    std::array<std::uint32_t, 3> edges;
-    bool exists;
+    std::array<std::uint32_t, 2> next;
+    bool exists() const { return next[0] != kNone; }
   };
   struct SmallTriangle;
   struct Level {

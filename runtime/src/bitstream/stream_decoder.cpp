@@ -23,6 +23,7 @@ struct StreamDecoder::State {
   std::span<const std::uint8_t> read_stream_header(std::span<const std::uint8_t> bytes);
   void accept_header(const StreamHeader& read);
   void read_connectivity();
+  void set_external_base(BaseTopology given, std::vector<float> given_positions);
   void accept_external_base();
   void accept_base_edges();
   void run_passes();
@@ -37,7 +38,6 @@ struct StreamDecoder::State {
   Limits limits;
   std::pmr::memory_resource* resource;
   bool external = false;
-  BaseTopology external_base;
   std::vector<float> external_positions;
 
   std::size_t fed = 0;
@@ -99,23 +99,31 @@ void StreamDecoder::State::accept_header(const StreamHeader& read) {
   header_ready = true;
 }
 
-void StreamDecoder::State::accept_external_base() {
-  if (external_positions.size() != std::size_t{external_base.vertex_count} * 3) {
-    return fail("the base mesh given has not three coordinates per vertex");
-  }
-  if (external_base.triangles.empty() || external_base.triangles.size() > kMostFaces) {
-    return fail("the base mesh given has no faces, or too many");
-  }
-  if (hash_base(external_base, external_positions) != header.base_hash) {
-    return fail("the base mesh given is not the one that the stream was made for");
-  }
-  header.vertex_count = external_base.vertex_count;
-  header.face_count = static_cast<std::uint32_t>(external_base.triangles.size());
-  std::string beyond = check_size(header, limits);
-  if (!beyond.empty()) return fail(std::move(beyond));
-  base = std::move(external_base);
+void StreamDecoder::State::set_external_base(BaseTopology given,
+                                             std::vector<float> given_positions) {
+  external = true;
+  base = std::move(given);
   base.crease_edges.clear();
   base.corner_vertices.clear();
+  external_positions = std::move(given_positions);
+  numbering = number_base_edges(base);
+  if (!numbering.error.empty()) fail(numbering.error);
+}
+
+void StreamDecoder::State::accept_external_base() {
+  if (external_positions.size() != std::size_t{base.vertex_count} * 3) {
+    return fail("the base mesh given has not three coordinates per vertex");
+  }
+  if (base.triangles.empty() || base.triangles.size() > kMostFaces) {
+    return fail("the base mesh given has no faces, or too many");
+  }
+  if (hash_base(base, external_positions) != header.base_hash) {
+    return fail("the base mesh given is not the one that the stream was made for");
+  }
+  header.vertex_count = base.vertex_count;
+  header.face_count = static_cast<std::uint32_t>(base.triangles.size());
+  std::string beyond = check_size(header, limits);
+  if (!beyond.empty()) return fail(std::move(beyond));
   accept_base_edges();
 }
 
@@ -125,20 +133,21 @@ void StreamDecoder::State::read_connectivity() {
   if (connectivity.starved()) return;
   if (!decoded.ok()) return fail(std::string("base connectivity: ") + decoded.problem);
   positions.emplace(base, header.positions.bits, resource);
+  numbering = number_base_edges(base);
+  if (!numbering.error.empty()) return fail(numbering.error);
   accept_base_edges();
 }
 
 void StreamDecoder::State::accept_base_edges() {
-  numbering = number_base_edges(base);
-  if (!numbering.error.empty()) return fail(numbering.error);
   const std::uint64_t edges = numbering.edges.size();
   if (base.vertex_count + edges * cells_below(header.levels) > limits.max_vertices ||
       DetailState::memory(edges, header.levels, header.planes) > limits.max_memory) {
     return fail("the stream has more vertices than the limit");
   }
   details.emplace(numbering, header.levels, header.planes, resource);
-  tags.emplace(numbering.edges, base.vertex_count, resource);
+  decltype(numbering.face_edges)().swap(numbering.face_edges);  // nobody else asks for them
   if (header.has_sharp_tags) {
+    tags.emplace(numbering.edges, base.vertex_count, resource);
     base.crease_edges.reserve(edges);
     base.corner_vertices.reserve(base.vertex_count);
   }
@@ -174,9 +183,7 @@ StreamDecoder::StreamDecoder(const Limits& limits, std::pmr::memory_resource* re
 StreamDecoder::StreamDecoder(BaseTopology base, std::vector<float> positions, const Limits& limits,
                              std::pmr::memory_resource* resource)
     : state_(std::make_unique<State>(limits, resource)) {
-  state_->external = true;
-  state_->external_base = std::move(base);
-  state_->external_positions = std::move(positions);
+  state_->set_external_base(std::move(base), std::move(positions));
 }
 
 StreamDecoder::~StreamDecoder() = default;
@@ -231,6 +238,9 @@ std::vector<float> StreamDecoder::base_positions() const {
                                                 : state_->positions->values().size());
   get_base_positions(positions);
   return positions;
+}
+std::span<const float> StreamDecoder::external_positions() const {
+  return state_->external_positions;
 }
 void StreamDecoder::get_base_positions(std::span<float> positions) const {
   if (state_->external) {

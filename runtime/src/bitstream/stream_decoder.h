@@ -33,7 +33,7 @@ class StreamDecoder {
                          std::pmr::memory_resource* resource = std::pmr::new_delete_resource());
   /// For streams bound to an external base: `base` with its triangles (sharp tags are ignored:
   /// the stream holds them) and x, y, z of each of its vertices. The stream is broken if it was
-  /// made for another base.
+  /// made for another base, and from the start if the base's edges cannot be numbered.
   StreamDecoder(BaseTopology base, std::vector<float> positions, const Limits& limits = {},
                 std::pmr::memory_resource* resource = std::pmr::new_delete_resource());
   ~StreamDecoder();
@@ -53,7 +53,8 @@ class StreamDecoder {
   const StreamHeader& header() const;
 
   /// Connectivity and sharp tags are known, so a surface can be made. Before, the accessors
-  /// below mean nothing.
+  /// below mean nothing, but for an external base and its edges: these are there from the
+  /// start, without tags.
   bool base_ready() const;
   const BaseTopology& base() const;
   const std::vector<BaseEdge>& base_edges() const;
@@ -62,6 +63,8 @@ class StreamDecoder {
   std::vector<float> base_positions() const;
   /// The same into room for three floats a vertex.
   void get_base_positions(std::span<float> positions) const;
+  /// Those of an external base where they are kept; otherwise empty. Live as long as the decoder.
+  std::span<const float> external_positions() const;
   /// Details as far as they are known: see DetailState::has_details and DetailState::values.
   const DetailState& details() const;
   /// A copy of all details, those that are zero included.

@@ -23,27 +23,23 @@ ProgressiveSurface::ProgressiveSurface(const bitstream::Limits& limits,
 ProgressiveSurface::ProgressiveSurface(ExternalBase base, const bitstream::Limits& limits,
                                        const SurfaceResources& resources)
     : resources_(resources),
-      external_(std::move(base)),
-      decoder_(external_->topology, external_->positions, limits, resources.memory) {
-  external_->topology.crease_edges.clear();
-  external_->topology.corner_vertices.clear();
-  check_external_base(limits);
+      external_levels_(base.levels),
+      decoder_(std::move(base.topology), std::move(base.positions), limits, resources.memory) {
+  check_external_base(base.levels, limits);
 }
 
-void ProgressiveSurface::check_external_base(const bitstream::Limits& limits) {
-  bitstream::BaseEdges numbered = bitstream::number_base_edges(external_->topology);
-  external_edges_ = std::move(numbered.edges);
-  const std::size_t edges = external_edges_.size();
-  if (!numbered.error.empty()) return fail(numbered.error);
+void ProgressiveSurface::check_external_base(int levels, const bitstream::Limits& limits) {
+  if (decoder_.status() == DecodeStatus::broken) return;  // its edges cannot be numbered
+  const bitstream::BaseTopology& topology = decoder_.base();
+  const std::size_t edges = decoder_.base_edges().size();
   if (edges == 0) return fail("the base mesh given has no triangle");
-  const auto fans = bitstream::check_base_fans(external_->topology, external_edges_);
+  const auto fans = bitstream::check_base_fans(topology, decoder_.base_edges());
   if (!fans.ok()) return fail(std::string("the base mesh given: ") + fans.problem);
-  if (external_->positions.size() != 3 * std::size_t{external_->topology.vertex_count})
+  if (decoder_.external_positions().size() != 3 * std::size_t{topology.vertex_count})
     return fail("the base mesh given has not three coordinates per vertex");
-  if (external_->levels < 0 || external_->levels > limits.max_levels)
+  if (levels < 0 || levels > limits.max_levels)
     return fail("the number of levels is beyond the limit");
-  if (external_->topology.vertex_count +
-          std::uint64_t{edges} * bitstream::cells_below(external_->levels) >
+  if (topology.vertex_count + std::uint64_t{edges} * bitstream::cells_below(levels) >
       limits.max_vertices)
     return fail("the finest level has more vertices than the limit");
 }
@@ -62,10 +58,10 @@ void ProgressiveSurface::check_header() {
   if (!is_known_transform(header.transform))
     fail("the stream names wavelet transform " + std::to_string(header.transform) +
          ", which this version lacks");
-  else if (external_ && decoder_.status() != DecodeStatus::broken &&
-           header.levels != external_->levels)
+  else if (external_levels_ && decoder_.status() != DecodeStatus::broken &&
+           header.levels != *external_levels_)
     fail("the stream has " + std::to_string(header.levels) + " levels where " +
-         std::to_string(external_->levels) + " were announced");
+         std::to_string(*external_levels_) + " were announced");
 }
 
 DecodeStatus ProgressiveSurface::status() const {
@@ -77,20 +73,20 @@ const std::string& ProgressiveSurface::reason() const {
 }
 
 bool ProgressiveSurface::is_ready() const {
-  return status() != DecodeStatus::broken && (external_ || decoder_.base_ready());
+  return status() != DecodeStatus::broken && (external_levels_ || decoder_.base_ready());
 }
 
 int ProgressiveSurface::levels() const {
-  return external_ ? external_->levels : decoder_.header().levels;
+  return external_levels_ ? *external_levels_ : decoder_.header().levels;
 }
 
 const bitstream::BaseTopology& ProgressiveSurface::base() const {
-  return decoder_.base_ready() ? decoder_.base() : external_->topology;
+  return decoder_.base();
 }
 
 LevelCounts ProgressiveSurface::counts(int level) const {
-  const std::size_t edges = external_ ? external_edges_.size() : decoder_.base_edges().size();
-  return refined_counts({base().vertex_count, edges, base().triangles.size()}, level);
+  return refined_counts(
+      {base().vertex_count, decoder_.base_edges().size(), base().triangles.size()}, level);
 }
 
 WaveletTransform ProgressiveSurface::transform() const {
@@ -114,15 +110,12 @@ LatticeMesh* ProgressiveSurface::mesh() {
   const bool has_tags = decoder_.base_ready();
   std::unique_ptr<LatticeMesh> made;
   try {
-    made = std::make_unique<LatticeMesh>(base(), has_tags ? decoder_.base_edges() : external_edges_,
-                                         resources_.memory);
+    made = std::make_unique<LatticeMesh>(base(), decoder_.base_edges(), resources_.memory);
   } catch (const std::invalid_argument& error) {
     fail(error.what());
     return nullptr;
   }
-  positions_.resize(3 * std::size_t{base().vertex_count});
-  if (external_)
-    std::copy(external_->positions.begin(), external_->positions.end(), positions_.begin());
+  if (!external_levels_) positions_.resize(3 * std::size_t{base().vertex_count});
   source_ = {};
   schedule_ = std::make_unique<LevelSchedule>(*made, resources_.jobs, resources_.memory);
   // Last: whatever runs out of memory, there is a mesh with its schedule or neither.
@@ -144,8 +137,10 @@ void ProgressiveSurface::note_changes() {
 const SurfaceSource& ProgressiveSurface::source() {
   note_changes();
   if (source_.base_positions.empty()) {
-    if (!external_) decoder_.get_base_positions(positions_);
-    source_ = {positions_, {}, mean_face_area(base(), positions_)};
+    if (!external_levels_) decoder_.get_base_positions(positions_);
+    const std::span<const float> positions =
+        external_levels_ ? decoder_.external_positions() : positions_;
+    source_ = {positions, {}, mean_face_area(base(), positions)};
   }
   if (!decoder_.base_ready()) return source_;
   const bitstream::DetailState& state = decoder_.details();

@@ -96,7 +96,7 @@ class ProgressiveSurface {
 
  private:
   void fail(std::string why) { own_reason_ = std::move(why); }
-  void check_external_base(const bitstream::Limits& limits);
+  void check_external_base(int levels, const bitstream::Limits& limits);
   void check_header();
   WaveletTransform transform() const;
   Dequantisation dequantisation() const;
@@ -106,15 +106,14 @@ class ProgressiveSurface {
   bool mesh_wide_points(int level, Positions& points);
 
   SurfaceResources resources_;
-  std::optional<ExternalBase> external_;
-  std::vector<bitstream::BaseEdge> external_edges_;
-  bitstream::StreamDecoder decoder_;
+  std::optional<int> external_levels_;  ///< empty: the stream carries its base
+  bitstream::StreamDecoder decoder_;    ///< holds the external base too
   std::string own_reason_;
   /// Of the base with the tags known when they were made.
   std::unique_ptr<LatticeMesh> mesh_;
   std::unique_ptr<LevelSchedule> schedule_;
   bool mesh_has_tags_ = false;
-  std::vector<float> positions_;
+  std::vector<float> positions_;  ///< of an embedded base as they are known now
   std::array<LevelDetails, bitstream::kMostLevels> details_;
   SurfaceSource source_;
   std::vector<float> level_errors_;
