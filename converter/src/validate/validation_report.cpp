@@ -89,7 +89,7 @@ std::string issue_line(const gltf::Issue& issue) {
   const gltf::IssueText& row = gltf::issue_text(issue.code);
   std::string line = std::string(severity_name(row.severity)) + " " + row.id;
   if (!issue.pointer.empty()) line.append(" at ").append(issue.pointer);
-  return printable_text(line.append(": ").append(gltf::issue_message(issue)));
+  return printable_line(line.append(": ").append(gltf::issue_message(issue)));
 }
 
 ordered_json to_json(const ValidationReport& report) {
