@@ -91,6 +91,9 @@ TEST_F(ValidateCommand, EndsWithTwoWhereItCouldNotRun) {
   EXPECT_EQ(validate({}).exit_code, 2);
   EXPECT_EQ(validate({"--frobnicate", file("good.glb")}).exit_code, 2);
   EXPECT_EQ(validate({file("empty")}).exit_code, 2);
+  const CommandResult long_name = validate({std::string(300, 'a')});
+  EXPECT_EQ(long_name.exit_code, 2);
+  EXPECT_EQ(std::count(long_name.err.begin(), long_name.err.end(), '\n'), 1) << long_name.err;
   EXPECT_EQ(validate({file("good.glb"), "-o", file("no/such/report.json")}).exit_code, 2);
   EXPECT_EQ(validate({file("good.glb"), "--max-error", "much"}).exit_code, 2);
   EXPECT_EQ(validate({file("good.glb"), "--max-bytes", "0"}).exit_code, 2);
@@ -179,6 +182,50 @@ TEST_F(ValidateCommand, WritesReportsOfNamesThatAreNoText) {
   const std::vector<char> xml = read_bytes(file("odd.xml"));
   EXPECT_NE(std::string(xml.begin(), xml.end()).find("odd\xef\xbf\xbd&lt;&amp;>.glb"),
             std::string::npos);
+}
+
+TEST_F(ValidateCommand, PrintsNamesThatCannotPassForLinesOrCommands) {
+  const std::string odd =
+      "odd\x1b[2J\xc2\x9b"
+      "2J\n0 errors.glb";
+  write(file(odd), read_bytes(file("good.glb")));
+  const CommandResult there = validate({file(odd)});
+  EXPECT_EQ(there.exit_code, 0) << there.err;
+  EXPECT_EQ(there.out, file("odd\xef\xbf\xbd[2J\xef\xbf\xbd\xef\xbf\xbd"
+                            "2J 0 errors.glb: 0 errors, 0 warnings\n"));
+  const CommandResult missing = validate({file(odd + "missing")});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_EQ(missing.err.find('\x1b'), std::string::npos);
+  EXPECT_EQ(std::count(missing.err.begin(), missing.err.end(), '\n'), 1) << missing.err;
+}
+
+TEST_F(ValidateCommand, OverwritesNothingThatItReads) {
+  const std::string good = file("good.glb"), report = file("report.txt");
+  const std::vector<char> before = read_bytes(good);
+  write_off(file("scan.off"), sphere(1));
+  std::filesystem::create_symlink(good, file("link.json"));
+  for (const char* option : {"-o", "--junit"})
+    for (const std::string& target : {good, file("empty/../good.glb"), file("link.json")})
+      EXPECT_EQ(validate({good, option, target}).exit_code, 2) << option << " " << target;
+  EXPECT_EQ(validate({good, "--source", file("scan.off"), "-o", file("scan.off")}).exit_code, 2);
+  EXPECT_EQ(validate({good, "-o", report, "--junit", report}).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(report));
+  EXPECT_EQ(read_bytes(good), before);
+}
+
+TEST_F(ValidateCommand, RefusesEmptyArguments) {
+  for (const char* option : {"-o", "--junit", "--max-bytes", "--max-error", "--source"})
+    EXPECT_EQ(validate({file("good.glb"), option, ""}).exit_code, 2) << option;
+  EXPECT_EQ(validate({file("good.glb"), ""}).exit_code, 2);
+}
+
+// Where there is no mesh to measure because of errors, the errors are what to tell.
+TEST_F(ValidateCommand, TellsTheErrorsOfAFileThatItCannotMeasure) {
+  write_off(file("scan.off"), sphere(1));
+  const CommandResult result = validate({file("text.glb"), "--source", file("scan.off")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.out.find("FILE_FORMAT_UNKNOWN"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("SOURCE_NOT_MEASURED"), std::string::npos) << result.out;
 }
 
 // One conversion serves what a scan can tell of its file and of others.
