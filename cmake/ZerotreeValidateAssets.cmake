@@ -27,7 +27,7 @@
 #
 # Needs CMake 3.20 and the target zerotree::zerotree: find_package(zerotree COMPONENTS command), or
 # add_subdirectory of zerotree with its converter. Errors end the configuration: an unknown
-# argument, a file that is not there, a folder without assets, a command that is not installed.
+# or an empty argument, a file that is not there, a folder without assets, a command that is not installed.
 include_guard(GLOBAL)
 cmake_policy(PUSH)
 cmake_policy(VERSION 3.5...3.25)
@@ -132,6 +132,13 @@ function(zerotree_validate_assets)
   cmake_parse_arguments(PARSE_ARGV 0 ASSETS
     "ALL" "TARGET;MAX_BYTES;MAX_ERROR;MAX_TRIANGLES;REPORT;JUNIT" "FILES;DIRECTORY;OPTIONS")
   _zerotree_check_arguments()
+  # An unset variable in quotes must not switch a budget off: the parser passes over it.
+  math(EXPR last "${ARGC} - 1")
+  foreach(i RANGE ${last})
+    if("${ARGV${i}}" STREQUAL "")
+      message(FATAL_ERROR "zerotree_validate_assets: an argument is empty")
+    endif()
+  endforeach()
   _zerotree_list_assets(assets "${ASSETS_FILES}" "${ASSETS_DIRECTORY}")
   _zerotree_list_options(options reports)
 

@@ -178,6 +178,23 @@ TEST(runtime, EveryPrefixDecodesToWhatIsExpected) {
   }
 }
 
+// Also where the last bytes decide nothing and the stream is done before they come.
+TEST(runtime, PiecesOfAStreamHaveItsLength) {
+  for (const json& stream : list_of("streams")) {
+    SCOPED_TRACE(stream["name"].get<std::string>());
+    const Bytes bytes = read_file(kFolder / stream["file"].get<std::string>());
+    std::set<std::uint64_t> lengths;
+    for (const std::size_t piece : kPieces) {
+      const Decoder decoder = decoder_for(stream);
+      feed_in_pieces(decoder.get(), bytes, piece);
+      zt_info info;
+      zt_get_info(decoder.get(), &info, sizeof info);
+      lengths.insert(info.bytes_consumed);
+    }
+    EXPECT_EQ(lengths.size(), 1u) << *lengths.begin() << " and " << *lengths.rbegin();
+  }
+}
+
 TEST(runtime, BrokenStreamsAreBrokenForTheReasonStated) {
   for (const json& broken : list_of("broken")) {
     const Bytes bytes = read_file(kFolder / broken["file"].get<std::string>());

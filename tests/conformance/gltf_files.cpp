@@ -229,6 +229,12 @@ Bytes with_text(const std::string& text, const std::string& by) {
   return bytes;
 }
 
+Bytes stream_named(const std::string& name) {
+  for (StreamCase& stream : stream_cases())
+    if (stream.name == name) return std::move(stream.bytes);
+  throw std::logic_error(name);
+}
+
 /// Files whose bytes are made otherwise.
 std::vector<FileCase> other_files() {
   const Bytes right = gltf::glb_bytes(right_asset());
@@ -246,6 +252,7 @@ std::vector<FileCase> other_files() {
       {"right-quantised.glb", {}, 0, gltf::glb_bytes(grid_asset()), {}},
       {"right-compressed.glb", {}, 0, gltf::glb_bytes(grid_asset(), {.compress_base = true}), {}},
       {"right.zt", {}, 0, stream, {}},
+      {"right-early_end.zt", {}, 0, stream_named("early_end"), {}},
       {"cut.zt", {"PAYLOAD_INCOMPLETE"}, 0, half_stream, {}},
       {"broken.zt", {"PAYLOAD_BROKEN"}, 1, broken_stream, {}},
       {"cut.glb", {"GLB_UNEXPECTED_END_OF_CHUNK_DATA", "PAYLOAD_TRUNCATED", "PAYLOAD_INCOMPLETE"}, 1, cut, {}},

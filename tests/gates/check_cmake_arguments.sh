@@ -23,8 +23,9 @@ arguments "there is no file $project/assets/god.glb" "TARGET;assets;FILES;assets
 arguments "there is no file $project/assets. FILES" "TARGET;assets;FILES;assets"
 arguments "there is no .glb, .gltf or .zt file in $project/assets/levels" \
   "TARGET;assets;DIRECTORY;assets/levels"
+refused "an argument is empty" -DCONSUMER_CASE=unset
 
 rm "$prefix/bin/zerotree" "$prefix"/lib*/cmake/zerotree/zerotree_command*.cmake
-refused "component \"command\"" -DARGUMENTS="TARGET;assets;FILES;assets/good.glb"
+refused "component \"command\"" -DCONSUMER_CASE= -DARGUMENTS="TARGET;assets;FILES;assets/good.glb"
 refused "zerotree::zerotree needs the installation's component \"command\"" \
   -DPACKAGE_COMPONENTS="COMPONENTS;command"

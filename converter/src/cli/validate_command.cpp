@@ -2,10 +2,12 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "cli/commands.h"
@@ -18,6 +20,7 @@
 #include "validate/file_validation.h"
 #include "validate/input_files.h"
 #include "validate/junit_report.h"
+#include "validate/printable_text.h"
 #include "validate/validation_report.h"
 
 namespace zerotree::cli {
@@ -55,12 +58,13 @@ std::string counts_of(std::size_t errors, std::size_t warnings) {
 }
 
 void print_report(const ValidationReport& report, bool is_quiet) {
+  const std::string uri = validate::printable_line(report.uri);
   for (const gltf::Issue& issue : report.issues) {
     if (report.is_unreadable || (is_quiet && !gltf::is_error(issue))) continue;
-    std::printf("%s: %s\n", report.uri.c_str(), validate::issue_line(issue).c_str());
+    std::printf("%s: %s\n", uri.c_str(), validate::issue_line(issue).c_str());
   }
   if (is_quiet) return;
-  std::printf("%s: %s\n", report.uri.c_str(),
+  std::printf("%s: %s\n", uri.c_str(),
               report.is_unreadable ? "could not be read"
                                    : counts_of(count_issues(report, Severity::error),
                                                count_issues(report, Severity::warning))
@@ -74,9 +78,14 @@ void print_totals(const std::vector<ValidationReport>& reports) {
     errors += report.is_unreadable ? 0 : count_issues(report, Severity::error);
     warnings += count_issues(report, Severity::warning);
   }
-  std::printf("%zu files: %s", reports.size(), counts_of(errors, warnings).c_str());
+  std::printf("%zu %s: %s", reports.size(), reports.size() == 1 ? "file" : "files",
+              counts_of(errors, warnings).c_str());
   if (unreadable > 0) std::printf(", %zu could not be read", unreadable);
   std::printf("\n");
+}
+
+void print_problem(const std::string& problem) {
+  std::fprintf(stderr, "zerotree: %s\n", validate::printable_line(problem).c_str());
 }
 
 // Whatever happens to one file, the others are checked.
@@ -95,8 +104,30 @@ ValidationReport validate_input(const InputFile& input, const validate::Validate
       problem = input.path.string() + ": internal error: " + error.what();
     }
   }
-  std::fprintf(stderr, "zerotree: %s\n", problem.c_str());
+  print_problem(problem);
   return validate::unreadable_report(input.path, problem);
+}
+
+bool are_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code ignored;  // what cannot be looked at is told apart by its name
+  return std::filesystem::equivalent(a, b, ignored) ||
+         std::filesystem::weakly_canonical(a, ignored) ==
+             std::filesystem::weakly_canonical(b, ignored);
+}
+
+// A report must not take the place of a file that is read, nor of the other report.
+void check_outputs(const ValidateArguments& arguments, const std::vector<InputFile>& inputs) {
+  const auto keep_apart = [](const std::filesystem::path& report,
+                             const std::filesystem::path& other) {
+    if (!report.empty() && !other.empty() && are_same_file(report, other))
+      throw Error(ExitCode::usage,
+                  report.string() + ": would be overwritten: name another file for the report");
+  };
+  keep_apart(arguments.junit, arguments.report);
+  for (const std::filesystem::path& report : {arguments.report, arguments.junit}) {
+    keep_apart(report, arguments.source);
+    for (const InputFile& input : inputs) keep_apart(report, input.path);
+  }
 }
 
 void write_reports(const ValidateArguments& arguments, const std::vector<ValidationReport>& reports,
@@ -130,6 +161,7 @@ int validate_all(ValidateArguments& arguments) {
         allowed.value;
   }
   const std::vector<InputFile> inputs = validate::find_input_files(arguments.inputs);
+  check_outputs(arguments, inputs);
   std::unique_ptr<const Source> source;
   if (!arguments.source.empty()) {
     if (inputs.size() != 1)
@@ -145,8 +177,9 @@ int validate_all(ValidateArguments& arguments) {
     reports.push_back(validate_input(input, options));
     print_report(reports.back(), arguments.is_quiet);
   }
+  std::error_code ignored;  // what cannot be looked at is no folder
   const bool is_list =
-      reports.size() != 1 || std::filesystem::is_directory(arguments.inputs.front());
+      reports.size() != 1 || std::filesystem::is_directory(arguments.inputs.front(), ignored);
   if (is_list && !arguments.is_quiet) print_totals(reports);
   write_reports(arguments, reports, is_list);
   return exit_code_of(reports);
@@ -157,10 +190,15 @@ int run_validate(ValidateArguments& arguments) {
     return validate_all(arguments);
   } catch (const std::exception& error) {
     // The codes of the other subcommands mean other things here.
-    std::fprintf(stderr, "zerotree: %s\n", error.what());
+    print_problem(error.what());
     return kCouldNotRun;
   }
 }
+
+// An unset variable of a script must not switch a check off.
+const CLI::Validator kNotEmpty([](std::string& text) { return text.empty() ? "is empty" : ""; },
+                               "");
+const CLI::Range kPositive(std::uint64_t{1}, std::numeric_limits<std::uint64_t>::max(), "POSITIVE");
 
 void add_budgets(CLI::App& command, ValidateArguments& arguments) {
   validate::Budgets& budgets = arguments.options.budgets;
@@ -168,26 +206,33 @@ void add_budgets(CLI::App& command, ValidateArguments& arguments) {
       .add_option("--max-bytes", budgets.max_bytes,
                   "Most bytes of the file and of all files it names: 200000, 200k, 5M")
       ->transform(CLI::AsSizeValue(true))
-      ->check(CLI::PositiveNumber);
-  command.add_option("--max-error", arguments.max_error,
-                     "Largest stated error of a whole payload: 1e-4, 0.5mm");
+      ->check(kPositive);
+  command
+      .add_option("--max-error", arguments.max_error,
+                  "Largest stated error of a whole payload: 1e-4, 0.5mm")
+      ->check(kNotEmpty);
   command
       .add_option("--max-triangles", budgets.max_triangles,
                   "Most triangles of the finest surfaces, of all progressive meshes together")
-      ->check(CLI::PositiveNumber);
+      ->check(kPositive);
 }
 
 void add_source(CLI::App& command, ValidateArguments& arguments) {
-  CLI::Option* source = command.add_option(
-      "--source", arguments.source,
-      "The scan that one progressive mesh was made of: its table of errors is measured again");
+  CLI::Option* source =
+      command
+          .add_option("--source", arguments.source,
+                      "The scan that one progressive mesh was made of: its table of errors is "
+                      "measured again")
+          ->check(kNotEmpty);
   command
       .add_option("--fill-holes", arguments.repairs.fill_holes,
                   "What `convert` was given: errors are those of the changed scan")
-      ->needs(source);
+      ->needs(source)
+      ->check(kNotEmpty);
   command
       .add_option("--remove-handles", arguments.repairs.remove_handles, "What `convert` was given")
-      ->needs(source);
+      ->needs(source)
+      ->check(kNotEmpty);
 }
 
 }  // namespace
@@ -199,11 +244,14 @@ void add_validate(CLI::App& app, int& exit_code) {
       ->add_option("inputs", arguments->inputs,
                    "Progressive .glb/.gltf, elementary .zt, or folders, which are searched for all "
                    "three")
-      ->required();
-  command->add_option("-o,--output", arguments->report,
-                      "JSON report in glTF-Validator's shape; an array for several files or a "
-                      "folder");
-  command->add_option("--junit", arguments->junit, "JUnit XML report, a test case per file");
+      ->required()
+      ->check(kNotEmpty);
+  command
+      ->add_option("-o,--output", arguments->report,
+                   "JSON report in glTF-Validator's shape; an array for several files or a folder")
+      ->check(kNotEmpty);
+  command->add_option("--junit", arguments->junit, "JUnit XML report, a test case per file")
+      ->check(kNotEmpty);
   command->add_flag("-q,--quiet", arguments->is_quiet, "Print errors only");
   add_budgets(*command, *arguments);
   add_source(*command, *arguments);

@@ -1,5 +1,6 @@
 #include "convert/prefix_errors.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace zerotree::convert {
@@ -46,9 +47,13 @@ double PrefixErrors::error(std::uint64_t bytes, Precision precision) {
   return measured ? measured->error.error : std::numeric_limits<double>::infinity();
 }
 
-Eigen::AlignedBox3f PrefixErrors::box_before_stream() {
-  decode::PrefixSurface& prefix = decoded(0);
-  return prefix.has_surface() ? box_of(prefix.surface()) : Eigen::AlignedBox3f();
+Eigen::AlignedBox3f PrefixErrors::box_before(std::uint64_t bytes) {
+  Eigen::AlignedBox3f box;
+  for (std::uint64_t length = 0; length < bytes; length = std::max<std::uint64_t>(2 * length, 1)) {
+    decode::PrefixSurface& prefix = decoded(length);
+    if (prefix.has_surface()) box.extend(box_of(prefix.surface()));
+  }
+  return box;
 }
 
 std::uint64_t PrefixErrors::shortest_with_surface() {

@@ -59,8 +59,9 @@ class PrefixErrors {
   const std::optional<MeasuredSurface>& at(std::uint64_t bytes, Precision precision);
   /// Its error alone, relative; infinite without a surface.
   double error(std::uint64_t bytes, Precision precision);
-  /// Box of what is shown before the first byte; empty for an embedded base.
-  Eigen::AlignedBox3f box_before_stream();
+  /// Box of what prefixes shorter than `bytes` show: those of no byte and of each power of two. Empty
+  /// if none has a surface.
+  Eigen::AlignedBox3f box_before(std::uint64_t bytes);
   /// Length of the shortest prefix that has a surface.
   std::uint64_t shortest_with_surface();
 

@@ -24,10 +24,10 @@ std::vector<std::uint64_t> table_lengths(std::uint64_t stream_bytes, std::uint64
 
 PrefixTable measure_prefixes(PrefixErrors& errors, std::uint64_t stream_bytes, Precision last,
                              const Progress& progress) {
-  PrefixTable table;
-  // An external base has a surface before the first byte.
-  table.bounds = errors.box_before_stream();
   const auto lengths = table_lengths(stream_bytes, errors.how().original_vertices);
+  PrefixTable table;
+  // An external base has a surface before the first byte, and first details may reach far.
+  table.bounds = errors.box_before(lengths.front());
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     report_progress(progress, "measuring prefixes",
                     static_cast<double>(i) / static_cast<double>(lengths.size()));

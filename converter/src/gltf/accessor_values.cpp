@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -21,21 +22,11 @@ double read(const std::uint8_t* bytes) {
   return static_cast<double>(value);
 }
 
-double read_component(const std::uint8_t* bytes, std::uint64_t type) {
-  switch (type) {
-    case 5120:
-      return read<std::int8_t>(bytes);
-    case 5121:
-      return read<std::uint8_t>(bytes);
-    case 5122:
-      return read<std::int16_t>(bytes);
-    case 5123:
-      return read<std::uint16_t>(bytes);
-    case 5125:
-      return read<std::uint32_t>(bytes);
-    default:
-      return read<float>(bytes);
-  }
+// Digits that tell apart all floats and all integers of accessors.
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
 }
 
 // Where component `index` of an element begins: columns of matrices at multiples of 4.
@@ -61,7 +52,7 @@ void compare(const std::vector<double>& stated, const Extent& extent, bool is_mi
     if (actual == stated[k]) continue;
     const std::string place = pointer + (is_min ? "/min/" : "/max/") + std::to_string(k);
     issues.push_back({is_min ? IssueCode::accessor_min_mismatch : IssueCode::accessor_max_mismatch,
-                      place, std::to_string(stated[k]) + " instead of " + std::to_string(actual)});
+                      place, number_text(stated[k]) + " instead of " + number_text(actual)});
     const std::uint64_t beyond = is_min ? extent.below[k] : extent.above[k];
     if (beyond > 0)
       issues.push_back({is_min ? IssueCode::accessor_element_out_of_min_bound
@@ -85,6 +76,23 @@ std::uint64_t component_size(std::uint64_t component_type) {
       return 4;
     default:
       return 0;
+  }
+}
+
+double read_component(const std::uint8_t* bytes, std::uint64_t type) {
+  switch (type) {
+    case 5120:
+      return read<std::int8_t>(bytes);
+    case 5121:
+      return read<std::uint8_t>(bytes);
+    case 5122:
+      return read<std::int16_t>(bytes);
+    case 5123:
+      return read<std::uint16_t>(bytes);
+    case 5125:
+      return read<std::uint32_t>(bytes);
+    default:
+      return read<float>(bytes);
   }
 }
 

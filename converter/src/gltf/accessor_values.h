@@ -13,6 +13,8 @@ inline constexpr std::uint64_t kFloatType = 5126;
 
 /// Bytes of a component of `component_type`; 0 if glTF has no such type.
 std::uint64_t component_size(std::uint64_t component_type);
+/// The value at `bytes` of a component of `component_type`, one of glTF's.
+double read_component(const std::uint8_t* bytes, std::uint64_t component_type);
 /// Smallest and largest value of an integer type.
 std::pair<double, double> component_range(std::uint64_t component_type);
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <string_view>
 #include <utility>
 
+#include "gltf/accessor_values.h"
 #include "gltf/base_layout.h"
 #include "gltf/glb_container.h"
 #include "gltf/json_text.h"
@@ -22,7 +22,6 @@ namespace {
 
 constexpr std::uint64_t kByte = 5120;
 constexpr std::uint64_t kUnsignedByte = 5121;
-constexpr std::uint64_t kShort = 5122;
 constexpr std::uint64_t kUnsignedShort = 5123;
 constexpr std::uint64_t kUnsignedInt = 5125;
 constexpr std::uint64_t kFloat = 5126;
@@ -44,35 +43,6 @@ std::uint64_t index_size(const JsonCursor& component_type) {
     default:
       component_type.fail(IssueCode::accessor_unsupported, "indices are unsigned integers");
   }
-}
-
-// Bytes of a component of a vector; 0 for a type that vectors do not have.
-std::size_t component_size(std::uint64_t type) {
-  if (type == kFloat) return sizeof(float);
-  if (type == kByte || type == kUnsignedByte) return 1;
-  return type == kShort || type == kUnsignedShort ? 2 : 0;
-}
-
-// What a normalized integer is divided by.
-float largest_component(std::uint64_t type) {
-  if (type == kByte) return 127;
-  if (type == kUnsignedByte) return 255;
-  if (type == kShort) return 32767;
-  return type == kUnsignedShort ? 65535.0f : 1.0f;
-}
-
-template <class Component>
-float as_float(const std::uint8_t* bytes) {
-  Component value;
-  std::memcpy(&value, bytes, sizeof value);
-  return static_cast<float>(value);
-}
-
-float component(const std::uint8_t* bytes, std::uint64_t type) {
-  if (type == kByte) return as_float<std::int8_t>(bytes);
-  if (type == kUnsignedByte) return as_float<std::uint8_t>(bytes);
-  if (type == kShort) return as_float<std::int16_t>(bytes);
-  return type == kUnsignedShort ? as_float<std::uint16_t>(bytes) : as_float<float>(bytes);
 }
 
 // 0 if `view` states none.
@@ -197,7 +167,8 @@ std::span<const std::uint8_t> GltfDocument::load_uri(const JsonCursor& uri) {
   const std::filesystem::path relative =
       std::filesystem::path(percent_decoded(text)).lexically_normal();
   // What a hostile file names must not lead out of its folder.
-  if (has_scheme(text) || relative.empty() || relative.is_absolute() || *relative.begin() == "..")
+  if (has_scheme(text) || relative.empty() || relative.native().find('\0') != std::string::npos ||
+      relative.is_absolute() || *relative.begin() == "..")
     uri.fail(IssueCode::io_error, "\"" + text + "\" names no file in the folder of the glTF file");
   std::string key = "/";  // as no data URI begins
   key += relative.string();
@@ -312,17 +283,20 @@ void GltfDocument::require_quantisation(const JsonCursor& accessor) const {
 std::vector<Eigen::Vector3f> GltfDocument::read_vectors(const JsonCursor& index) {
   const JsonCursor accessor = index.resolve(root().member("accessors"));
   const std::uint64_t type = component_type_of(accessor.member("componentType"));
-  const std::size_t size = component_size(type);
+  const std::size_t size = type == kUnsignedInt ? 0 : component_size(type);
   if (accessor.member("type").string() != "VEC3" || size == 0)
     accessor.fail(IssueCode::accessor_unsupported, "vectors are VEC3");
   if (type != kFloat) require_quantisation(accessor);
-  const float divisor = is_true(accessor.member("normalized")) ? largest_component(type) : 1;
+  const bool is_normalised = is_true(accessor.member("normalized")) && type != kFloat;
+  const auto divisor = static_cast<float>(is_normalised ? component_range(type).second : 1);
   const Elements from = elements(accessor, 3 * size);
   std::vector<Eigen::Vector3f> vectors(from.count);
   for (std::size_t i = 0; i < from.count; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       vectors[i][static_cast<Eigen::Index>(axis)] =
-          component(from.bytes.data() + i * from.stride + axis * size, type) / divisor;
+          static_cast<float>(
+              read_component(from.bytes.data() + i * from.stride + axis * size, type)) /
+          divisor;
     if (!vectors[i].allFinite())
       accessor.fail(IssueCode::accessor_invalid_float, "element " + std::to_string(i));
   }

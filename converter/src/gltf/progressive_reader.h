@@ -20,8 +20,8 @@ ProgressiveAsset read_progressive(const std::filesystem::path& path);
 /// document as a whole (extensionsUsed, extensionsRequired, places without meaning).
 std::vector<std::size_t> progressive_meshes(const GltfDocument& document, Issues& issues);
 
-/// Where the first node that shows each mesh puts it. Throws IssueFound if a node is not as glTF has
-/// it. Linear in meshes and nodes.
+/// Where the first node that shows each mesh puts it. Throws IssueFound if a node is not as glTF
+/// has it. Linear in meshes and nodes.
 std::vector<Placement> mesh_placements(const GltfDocument& document);
 
 /// Reads mesh `mesh`, which has the extension, without its placement, and adds all that is wrong

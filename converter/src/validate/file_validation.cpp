@@ -151,9 +151,9 @@ bool starts_json(std::span<const std::uint8_t> file) {
 void check_content(const std::filesystem::path& path, std::vector<std::uint8_t> file,
                    const ValidateOptions& options, const Progress& progress,
                    ValidationReport& report) {
-  report.mime_type = kStreamType;
   try {
     if (starts_stream(file)) {
+      report.mime_type = kStreamType;
       validate_stream(file, options, progress, report);
     } else if (gltf::is_glb(file) || starts_json(file)) {
       report.mime_type = gltf::is_glb(file) ? kBinaryType : kJsonType;
@@ -184,7 +184,6 @@ ValidationReport validate_file(const std::filesystem::path& path, const Validate
 ValidationReport unreadable_report(const std::filesystem::path& path, const std::string& why) {
   ValidationReport report;
   report.uri = path.string();
-  report.mime_type = kStreamType;
   report.is_unreadable = true;
   report.issues.push_back({IssueCode::io_error, "", why});
   return report;

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace zerotree::validate {
 namespace {
@@ -20,20 +21,35 @@ bool is_asset(const fs::path& path) {
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 
-std::vector<InputFile> files_below(const fs::path& folder) {
-  std::vector<InputFile> files;
+// Adds the assets of `folder` itself to `files` and its folders to `folders`.
+void search(const fs::path& folder, std::vector<InputFile>& files, std::vector<fs::path>& folders) {
   std::error_code error;
-  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     std::error_code ignored;  // a file that has just gone is not there
-    if (is_asset(entry->path()) && !entry->is_directory(ignored))
+    const bool is_link = entry->is_symlink(ignored);
+    if (entry->is_directory(ignored)) {
+      if (!is_link) folders.push_back(entry->path());
+    } else if (is_asset(entry->path())) {
       files.push_back({entry->path(), {}});
+    }
+  }
+  if (error)
+    files.push_back(
+        {folder, "cannot be searched (" + error.message() + "): check that it may be read"});
+}
+
+std::vector<InputFile> files_below(const fs::path& folder) {
+  std::vector<InputFile> files;
+  std::vector<fs::path> folders{folder};
+  while (!folders.empty()) {
+    const fs::path next = std::move(folders.back());
+    folders.pop_back();
+    search(next, files, folders);
   }
   std::sort(files.begin(), files.end(),
             [](const InputFile& a, const InputFile& b) { return a.path < b.path; });
-  if (error)
-    files.push_back({folder, "cannot be searched: " + error.message()});
-  else if (files.empty())
+  if (files.empty())
     files.push_back({folder, "holds no .glb, .gltf or .zt file: name another folder or a file"});
   return files;
 }

@@ -16,7 +16,8 @@ struct InputFile {
 
 /// Files stay as they are named, whether or not they exist. A directory stands for the .glb, .gltf
 /// and .zt files (in letters of any case) in it and all directories below, in ascending order of
-/// their names; symbolic links to directories are not followed.
+/// their names; symbolic links to directories are not followed. A
+/// directory that cannot be searched is a problem of its own, and the search goes on.
 std::vector<InputFile> find_input_files(const std::vector<std::filesystem::path>& names);
 
 }  // namespace zerotree::validate

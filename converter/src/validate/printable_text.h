@@ -11,4 +11,7 @@ namespace zerotree::validate {
 /// terminal's cursor.
 std::string printable_text(std::string_view text);
 
+/// The same with a space for each line break and tab: a name cannot pass for a line of its own.
+std::string printable_line(std::string_view text);
+
 }  // namespace zerotree::validate

@@ -93,15 +93,16 @@ void judge(const std::vector<Measurement>& measurements, double scale, const std
 
 void check_source(const std::filesystem::path& path, const SourceScan& source,
                   const Progress& progress, ValidationReport& report) {
+  // Of a file that cannot be read to its end, the number of meshes says nothing.
+  if (gltf::first_error(report.issues) != nullptr) {
+    report.issues.push_back({IssueCode::source_not_measured, "", ""});
+    return;
+  }
   if (report.progressive_meshes != 1)
     throw Error(ExitCode::usage, path.string() + ": has " +
                                      std::to_string(report.progressive_meshes) +
                                      " progressive meshes: name a file with one to measure it "
                                      "against its source");
-  if (gltf::first_error(report.issues) != nullptr) {
-    report.issues.push_back({IssueCode::source_not_measured, "", ""});
-    return;
-  }
   const decode::StreamFile file = decode::open_stream_file(path);
   if (file.prefixes.empty())
     throw Error(ExitCode::usage, path.string() +

@@ -89,15 +89,16 @@ std::string issue_line(const gltf::Issue& issue) {
   const gltf::IssueText& row = gltf::issue_text(issue.code);
   std::string line = std::string(severity_name(row.severity)) + " " + row.id;
   if (!issue.pointer.empty()) line.append(" at ").append(issue.pointer);
-  return printable_text(line.append(": ").append(gltf::issue_message(issue)));
+  return printable_line(line.append(": ").append(gltf::issue_message(issue)));
 }
 
 ordered_json to_json(const ValidationReport& report) {
-  return {{"uri", report.uri},
-          {"mimeType", report.mime_type},
-          {"validatorVersion", ZEROTREE_VERSION},
-          {"issues", issues_json(report)},
-          {"info", info_json(report)}};
+  ordered_json json = {{"uri", report.uri}};
+  if (!report.mime_type.empty()) json["mimeType"] = report.mime_type;
+  json["validatorVersion"] = ZEROTREE_VERSION;
+  json["issues"] = issues_json(report);
+  if (!report.version.empty() || !report.meshes.empty()) json["info"] = info_json(report);
+  return json;
 }
 
 }  // namespace zerotree::validate

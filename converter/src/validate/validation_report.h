@@ -41,7 +41,8 @@ struct MeshInfo {
 struct ValidationReport {
   /// The file as it was named.
   std::string uri;
-  /// "model/gltf-binary", "model/gltf+json" or "application/octet-stream" for .zt.
+  /// "model/gltf-binary", "model/gltf+json" or "application/octet-stream" for .zt; empty if
+  /// unknown.
   std::string mime_type;
   gltf::Issues issues;
   /// The file could not be read: nothing is known of it.
@@ -68,8 +69,10 @@ const char* severity_name(gltf::Severity severity);
 /// "severity CODE at pointer: message", safe to print: files have no say over the terminal.
 std::string issue_line(const gltf::Issue& issue);
 
-/// {uri, mimeType, validatorVersion, issues {numErrors, ..., messages}, info {...}}. Bytes that are
-/// no UTF-8 stay as they are: dump it with error_handler_t::replace.
+/// {uri, mimeType, validatorVersion, issues {numErrors, ..., messages}, info {...}}: of a glTF file
+/// valid against glTF-Validator's validation.schema.json. What is not known is left out: mimeType,
+/// and info if the file has neither a glTF version nor a mesh. Bytes that are no UTF-8 stay as they
+/// are: dump it with error_handler_t::replace.
 nlohmann::ordered_json to_json(const ValidationReport& report);
 
 }  // namespace zerotree::validate

@@ -61,6 +61,8 @@ struct StreamDecoder::State {
 };
 
 void StreamDecoder::State::feed(std::span<const std::uint8_t> bytes) {
+  // The last bytes of a stream may decide nothing.
+  if (status == DecodeStatus::done) fed += bytes.size();
   if (status != DecodeStatus::more_bytes_wanted) return;
   fed += bytes.size();
   if (!header_ready) bytes = read_stream_header(bytes);

@@ -31,7 +31,7 @@ std::string read_text(const std::filesystem::path& path) {
 }  // namespace
 
 CommandResult run_zerotree(const std::vector<std::string>& arguments, int seconds) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   std::ostringstream line;
   line << "timeout " << seconds << ' ' << quoted(ZEROTREE_COMMAND);
   for (const std::string& argument : arguments) line << ' ' << quoted(argument);
@@ -44,13 +44,13 @@ CommandResult run_zerotree(const std::vector<std::string>& arguments, int second
   return result;
 }
 
-TemporaryFolder::TemporaryFolder() {
+ScratchFolder::ScratchFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "zerotree-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
   path = name;
 }
 
-TemporaryFolder::~TemporaryFolder() {
+ScratchFolder::~ScratchFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path, ignored);
 }

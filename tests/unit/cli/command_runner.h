@@ -19,12 +19,12 @@ struct CommandResult {
 CommandResult run_zerotree(const std::vector<std::string>& arguments, int seconds = 120);
 
 /// A folder that goes away with the object.
-class TemporaryFolder {
+class ScratchFolder {
  public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
 
   std::filesystem::path path;
   std::string operator/(const std::string& name) const { return (path / name).string(); }

@@ -42,7 +42,7 @@ TEST_P(HostileFile, ConvertsOrIsRefusedWithASentenceAndNothingLeft) {
   if (GetParam().empty()) GTEST_SKIP() << "test meshes are missing: " << (kData / "hostile");
   if (kSanitized && kSlowWhenSanitized.contains(GetParam()))
     GTEST_SKIP() << "takes minutes under the sanitizers";
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const CommandResult result = run_zerotree({"convert", (kData / "hostile" / GetParam()).string(),
                                              "-o", folder / "x.glb", "--stream", folder / "x.zt"},
                                             240);

@@ -29,7 +29,7 @@ std::size_t files_in(const std::filesystem::path& folder) {
 
 // A glTF file of `mesh` with its numbers in a file beside it, and with what tools leave in one: a
 // material, a texture, a camera.
-void write_furnished_gltf(const TemporaryFolder& folder, const TriangleMesh& mesh) {
+void write_furnished_gltf(const ScratchFolder& folder, const TriangleMesh& mesh) {
   std::ofstream numbers(folder / "numbers.bin", std::ios::binary);
   const auto put = [&](auto value) {
     numbers.write(reinterpret_cast<const char*>(&value), sizeof value);
@@ -60,7 +60,7 @@ void write_furnished_gltf(const TemporaryFolder& folder, const TriangleMesh& mes
 }
 
 TEST(Command, ConvertsAndDecodesEveryOutput) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_off(folder / "in.off", bumpy_sphere());
   const CommandResult converted =
       run_zerotree({"convert", folder / "in.off", "-o", folder / "out.glb", "--stream",
@@ -79,7 +79,7 @@ TEST(Command, ConvertsAndDecodesEveryOutput) {
 }
 
 TEST(Command, CompressesTheBase) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_off(folder / "in.off", bumpy_sphere());
   const auto convert = [&](const std::string& name, const std::vector<std::string>& options) {
     std::vector<std::string> arguments{"convert",     folder / "in.off", "-o",
@@ -112,7 +112,7 @@ TEST(Command, CompressesTheBase) {
 
 // Rounding the table's errors must not push the last one beyond what was asked for.
 TEST(Command, StatesNoMoreThanTheErrorAskedFor) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_off(folder / "in.off", bumpy_sphere());
   for (const std::string compress : {"--threads=1", "--compress-base"}) {
     ASSERT_EQ(run_zerotree({"convert", folder / "in.off", "-o", folder / "a.gltf", "--split",
@@ -124,11 +124,12 @@ TEST(Command, StatesNoMoreThanTheErrorAskedFor) {
     const nlohmann::json& extension = gltf["meshes"][0]["extensions"]["ZEROTREE_mesh_progressive"];
     const double error = extension["prefixes"].back()["geometricError"];
     EXPECT_LE(error / extension["sourceDiagonal"].get<double>(), 2e-3 * (1 + 1e-6));
+    EXPECT_EQ(run_zerotree({"validate", folder / "a.gltf", "--max-error", "2e-3"}).exit_code, 0);
   }
 }
 
 TEST(Command, ReportTellsWhatTheFilesHold) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_off(folder / "in.off", bumpy_sphere());
   ASSERT_EQ(run_zerotree({"convert", folder / "in.off", "-o", folder / "out.glb", "--stream",
                           folder / "out.zt", "--report", folder / "report.json"})
@@ -147,7 +148,7 @@ TEST(Command, ReportTellsWhatTheFilesHold) {
 }
 
 TEST(Command, ErrorFallsOverGrowingPrefixes) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_off(folder / "in.off", bumpy_sphere());
   ASSERT_EQ(run_zerotree({"convert", folder / "in.off", "--stream", folder / "out.zt"}).exit_code,
             0);
@@ -165,7 +166,7 @@ TEST(Command, ErrorFallsOverGrowingPrefixes) {
 }
 
 TEST(Command, SameBytesTwiceAndForAnyNumberOfThreads) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_off(folder / "in.off", bumpy_sphere());
   for (const std::string run : {"1", "2", "1"}) {
     const std::string name =
@@ -182,7 +183,7 @@ TEST(Command, SameBytesTwiceAndForAnyNumberOfThreads) {
 }
 
 TEST(Command, SplitPutsThePayloadInItsOwnFile) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_off(folder / "in.off", bumpy_sphere());
   ASSERT_EQ(
       run_zerotree({"convert", folder / "in.off", "-o", folder / "out.gltf", "--split"}).exit_code,
@@ -193,7 +194,7 @@ TEST(Command, SplitPutsThePayloadInItsOwnFile) {
 }
 
 TEST(Command, MeetsTargetsOrSaysThatItCannot) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_off(folder / "in.off", bumpy_sphere());
   ASSERT_EQ(run_zerotree({"convert", folder / "in.off", "--stream", folder / "out.zt",
                           "--max-error", "1e-3"})
@@ -223,7 +224,7 @@ TEST(Command, MeetsTargetsOrSaysThatItCannot) {
 }
 
 TEST(Command, FillsTheSizeAskedForAndNeverMore) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_off(folder / "in.off", bumpy_sphere());
   for (const std::string form : {"a.glb", "b.gltf", "c.zt"}) {
     for (const std::uint64_t size :
@@ -251,7 +252,7 @@ TEST(Command, FillsTheSizeAskedForAndNeverMore) {
 }
 
 TEST(Command, RefusesOutputsAndSizesThatMeanNothing) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_off(folder / "in.off", bumpy_sphere());
   std::filesystem::create_directory(folder / "folder.glb");
   const auto code = [&](std::vector<std::string> options) {
@@ -268,7 +269,7 @@ TEST(Command, RefusesOutputsAndSizesThatMeanNothing) {
 }
 
 TEST(Command, NamesTheErrorThatCanBeReached) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_off(folder / "in.off", bumpy_sphere());
   const CommandResult error = run_zerotree(
       {"convert", folder / "in.off", "--stream", folder / "x.zt", "--max-error", "1e-9"});
@@ -283,7 +284,7 @@ TEST(Command, NamesTheErrorThatCanBeReached) {
 }
 
 TEST(Command, MakesTheTransformAskedFor) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_off(folder / "in.off", bumpy_sphere());
   for (const std::string transform : {"local", "mirror", "auto"}) {
     ASSERT_EQ(run_zerotree({"convert", folder / "in.off", "--stream", folder / "x.zt",
@@ -308,7 +309,7 @@ TEST(Command, MakesTheTransformAskedFor) {
 }
 
 TEST(Command, RefusesWithTheRightCodeASentenceAndNoOutput) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   std::ofstream(folder / "empty.off");
   std::ofstream(folder / "nan.off") << "OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n";
   std::ofstream(folder / "range.off") << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n";
@@ -342,7 +343,7 @@ TEST(Command, RefusesWithTheRightCodeASentenceAndNoOutput) {
 
 // The command links two libraries that know glTF; a part of the one must not serve the other.
 TEST(Command, FillsHolesAndRemovesHandlesOnRequestOnly) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   TriangleMesh ring = midpoint_subdivide(
       voxel_surface(
           {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {2, 1, 0}, {0, 2, 0}, {1, 2, 0}, {2, 2, 0}}),
@@ -379,7 +380,7 @@ TEST(Command, FillsHolesAndRemovesHandlesOnRequestOnly) {
 }
 
 TEST(Command, ReadsAGltfWithMaterialsAndCameras) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const TriangleMesh mesh = bumpy_sphere();
   write_furnished_gltf(folder, mesh);
   write_off(folder / "same.off", mesh);
@@ -393,7 +394,7 @@ TEST(Command, ReadsAGltfWithMaterialsAndCameras) {
 }
 
 TEST(Command, NeverTouchesTheInput) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_off(folder / "in.off", bumpy_sphere());
   const std::vector<char> before = read_bytes(folder / "in.off");
   EXPECT_EQ(run_zerotree({"convert", folder / "in.off", "--stream", folder / "in.off"}).exit_code,

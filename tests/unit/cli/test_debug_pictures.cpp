@@ -28,7 +28,7 @@ std::size_t distinct_colours(const std::string& path) {
 }
 
 void expect_pictures(const TriangleMesh& mesh, const std::vector<std::string>& options) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_off(folder / "in.off", mesh);
   std::vector<std::string> command{"convert",       folder / "in.off",  "--stream",
                                    folder / "a.zt", "--debug-pictures", folder / "new/pictures"};
@@ -50,7 +50,7 @@ TEST(DebugPictures, ShowABaseWithoutLevels) {
 }
 
 TEST(DebugPictures, AFolderThatCannotBeMadeIsNamedBeforeAnyWork) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_off(folder / "in.off", sphere(1));
   std::ofstream(folder / "file") << "no folder";
   const CommandResult result =

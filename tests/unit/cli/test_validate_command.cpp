@@ -10,7 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "command_runner.h"
+#include "encoded_assets.h"
 #include "gltf/glb_container.h"
+#include "gltf/progressive_writer.h"
 #include "shapes.h"
 
 namespace zerotree::test {
@@ -18,16 +20,14 @@ namespace {
 
 using nlohmann::json;
 
-// A converted scan and what a build folder holds beside it, made once.
+// A right file and what a build folder holds beside it.
 class ValidateCommand : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    files_ = new TemporaryFolder;
-    write_off(file("scan.off"), add_bumps(sphere(2), 0.02, 4));
-    const CommandResult result =
-        run_zerotree({"convert", file("scan.off"), "-o", file("good.glb"), "--stream",
-                      file("good.zt"), "--base-vertices", "40", "--levels", "2"});
-    ASSERT_EQ(result.exit_code, 0) << result.err;
+    files_ = new ScratchFolder;
+    const Shape shape = base_shapes()[0];
+    write(file("good.glb"), gltf::glb_bytes(encoded_asset(shape)));
+    write(file("good.zt"), encoded_stream(shape));
     std::ofstream(file("plain.gltf")) << R"({"asset":{"version":"2.0"}})";
     std::ofstream(file("text.glb")) << "no glTF";
     std::vector<char> bytes = read_bytes(file("good.glb"));
@@ -38,17 +38,20 @@ class ValidateCommand : public testing::Test {
   static void TearDownTestSuite() { delete files_; }
 
   static std::string file(const std::string& name) { return *files_ / name; }
-  static void write(const std::string& path, const std::vector<char>& bytes) {
+  template <class Byte>
+  static void write(const std::string& path, const std::vector<Byte>& bytes) {
     std::ofstream(path, std::ios::binary)
-        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
   }
   static CommandResult validate(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "validate");
     return run_zerotree(arguments);
   }
-  // good.glb with its JSON changed.
-  static void write_changed(const std::string& path, const std::function<void(json&)>& change) {
-    const std::vector<char> whole = read_bytes(file("good.glb"));
+  // A file with its JSON changed.
+  static void write_changed(const std::string& from, const std::string& path,
+                            const std::function<void(json&)>& change) {
+    const std::vector<char> whole = read_bytes(from);
     const std::vector<std::uint8_t> bytes(whole.begin(), whole.end());
     const gltf::GlbChunks chunks = gltf::split_glb(bytes);
     json root = json::parse(chunks.json);
@@ -63,10 +66,10 @@ class ValidateCommand : public testing::Test {
   }
 
  private:
-  static TemporaryFolder* files_;
+  static ScratchFolder* files_;
 };
 
-TemporaryFolder* ValidateCommand::files_ = nullptr;
+ScratchFolder* ValidateCommand::files_ = nullptr;
 
 TEST_F(ValidateCommand, EndsWithZeroWithoutErrors) {
   EXPECT_EQ(validate({file("good.glb"), file("good.zt"), file("plain.gltf")}).exit_code, 0);
@@ -88,6 +91,9 @@ TEST_F(ValidateCommand, EndsWithTwoWhereItCouldNotRun) {
   EXPECT_EQ(validate({}).exit_code, 2);
   EXPECT_EQ(validate({"--frobnicate", file("good.glb")}).exit_code, 2);
   EXPECT_EQ(validate({file("empty")}).exit_code, 2);
+  const CommandResult long_name = validate({std::string(300, 'a')});
+  EXPECT_EQ(long_name.exit_code, 2);
+  EXPECT_EQ(std::count(long_name.err.begin(), long_name.err.end(), '\n'), 1) << long_name.err;
   EXPECT_EQ(validate({file("good.glb"), "-o", file("no/such/report.json")}).exit_code, 2);
   EXPECT_EQ(validate({file("good.glb"), "--max-error", "much"}).exit_code, 2);
   EXPECT_EQ(validate({file("good.glb"), "--max-bytes", "0"}).exit_code, 2);
@@ -125,7 +131,7 @@ TEST_F(ValidateCommand, EndsWithTwoForAFileWithoutPermission) {
 }
 
 TEST_F(ValidateCommand, SearchesFolders) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   std::filesystem::create_directories(folder.path / "a");
   for (const char* name : {"z.glb", "a/b.glb"}) write(folder / name, read_bytes(file("good.glb")));
   const CommandResult result = validate({folder.path.string(), "-o", file("folder.json")});
@@ -157,14 +163,6 @@ TEST_F(ValidateCommand, KeepsBudgets) {
   EXPECT_EQ(validate({file("good.zt"), "--max-error", "0.1"}).exit_code, 1);
 }
 
-TEST_F(ValidateCommand, AgreesWithConvertOnTheErrorReached) {
-  ASSERT_EQ(run_zerotree({"convert", file("scan.off"), "-o", file("exact.glb"), "--base-vertices",
-                          "40", "--max-error", "2e-3"})
-                .exit_code,
-            0);
-  EXPECT_EQ(validate({file("exact.glb"), "--max-error", "2e-3"}).exit_code, 0);
-}
-
 TEST_F(ValidateCommand, PrintsErrorsOnlyIfAsked) {
   const CommandResult good = validate({"--quiet", file("good.glb"), file("plain.gltf")});
   EXPECT_EQ(good.out + good.err, "");
@@ -186,37 +184,84 @@ TEST_F(ValidateCommand, WritesReportsOfNamesThatAreNoText) {
             std::string::npos);
 }
 
-TEST_F(ValidateCommand, ConfirmsWhatConvertMeasured) {
-  const CommandResult result =
-      validate({file("good.glb"), "--source", file("scan.off"), "-o", file("measured.json")});
-  EXPECT_EQ(result.exit_code, 0) << result.out;
-  EXPECT_NE(result.out.find("0 errors, 0 warnings"), std::string::npos) << result.out;
+TEST_F(ValidateCommand, PrintsNamesThatCannotPassForLinesOrCommands) {
+  const std::string odd =
+      "odd\x1b[2J\xc2\x9b"
+      "2J\n0 errors.glb";
+  write(file(odd), read_bytes(file("good.glb")));
+  const CommandResult there = validate({file(odd)});
+  EXPECT_EQ(there.exit_code, 0) << there.err;
+  EXPECT_EQ(there.out, file("odd\xef\xbf\xbd[2J\xef\xbf\xbd\xef\xbf\xbd"
+                            "2J 0 errors.glb: 0 errors, 0 warnings\n"));
+  const CommandResult missing = validate({file(odd + "missing")});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_EQ(missing.err.find('\x1b'), std::string::npos);
+  EXPECT_EQ(std::count(missing.err.begin(), missing.err.end(), '\n'), 1) << missing.err;
+}
+
+TEST_F(ValidateCommand, OverwritesNothingThatItReads) {
+  const std::string good = file("good.glb"), report = file("report.txt");
+  const std::vector<char> before = read_bytes(good);
+  write_off(file("scan.off"), sphere(1));
+  std::filesystem::create_symlink(good, file("link.json"));
+  for (const char* option : {"-o", "--junit"})
+    for (const std::string& target : {good, file("empty/../good.glb"), file("link.json")})
+      EXPECT_EQ(validate({good, option, target}).exit_code, 2) << option << " " << target;
+  EXPECT_EQ(validate({good, "--source", file("scan.off"), "-o", file("scan.off")}).exit_code, 2);
+  EXPECT_EQ(validate({good, "-o", report, "--junit", report}).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(report));
+  EXPECT_EQ(read_bytes(good), before);
+}
+
+TEST_F(ValidateCommand, RefusesEmptyArguments) {
+  for (const char* option : {"-o", "--junit", "--max-bytes", "--max-error", "--source"})
+    EXPECT_EQ(validate({file("good.glb"), option, ""}).exit_code, 2) << option;
+  EXPECT_EQ(validate({file("good.glb"), ""}).exit_code, 2);
+}
+
+// Where there is no mesh to measure because of errors, the errors are what to tell.
+TEST_F(ValidateCommand, TellsTheErrorsOfAFileThatItCannotMeasure) {
+  write_off(file("scan.off"), sphere(1));
+  const CommandResult result = validate({file("text.glb"), "--source", file("scan.off")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.out.find("FILE_FORMAT_UNKNOWN"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("SOURCE_NOT_MEASURED"), std::string::npos) << result.out;
+}
+
+// One conversion serves what a scan can tell of its file and of others.
+TEST_F(ValidateCommand, MeasuresWhatTheTableStates) {
+  const std::string scan = file("scan.off"), converted = file("converted.glb");
+  write_off(scan, add_bumps(sphere(2), 0.02, 4));
+  ASSERT_EQ(
+      run_zerotree({"convert", scan, "-o", converted, "--base-vertices", "40", "--levels", "2"})
+          .exit_code,
+      0);
+  const CommandResult same = validate({converted, "--source", scan, "-o", file("measured.json")});
+  EXPECT_EQ(same.exit_code, 0) << same.out;
+  EXPECT_NE(same.out.find("0 errors, 0 warnings"), std::string::npos) << same.out;
   const json report = json::parse(std::ifstream(file("measured.json")));
   const json& mesh = report["info"]["progressiveMeshes"][0];
   EXPECT_EQ(mesh["measuredPrefixes"].size(), mesh["prefixCount"]);
-}
 
-TEST_F(ValidateCommand, FindsATableThatPromisesTooMuch) {
-  write_changed(file("boast.glb"), [](json& root) {
+  write_changed(converted, file("boast.glb"), [](json& root) {
     for (json& entry : table(root))
       entry["geometricError"] = entry["geometricError"].get<double>() / 2;
   });
   EXPECT_EQ(validate({file("boast.glb")}).exit_code, 0);
-  const CommandResult result = validate({file("boast.glb"), "--source", file("scan.off")});
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.out.find("PREFIX_ERROR_UNDERSTATED"), std::string::npos) << result.out;
-}
+  const CommandResult boast = validate({file("boast.glb"), "--source", scan});
+  EXPECT_EQ(boast.exit_code, 1);
+  EXPECT_NE(boast.out.find("PREFIX_ERROR_UNDERSTATED"), std::string::npos) << boast.out;
 
-TEST_F(ValidateCommand, FindsAnotherScan) {
   write_off(file("other.off"), add_bumps(sphere(2), 0.05, 2));
-  const CommandResult result = validate({file("good.glb"), "--source", file("other.off")});
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.out.find("SOURCE_DIAGONAL_MISMATCH"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("PREFIX_ERROR_UNDERSTATED"), std::string::npos) << result.out;
+  const CommandResult other = validate({converted, "--source", file("other.off")});
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.out.find("SOURCE_DIAGONAL_MISMATCH"), std::string::npos) << other.out;
+  EXPECT_NE(other.out.find("PREFIX_ERROR_UNDERSTATED"), std::string::npos) << other.out;
 }
 
 TEST_F(ValidateCommand, MeasuresOneFileAgainstItsScan) {
-  const std::string scan = file("scan.off");
+  const std::string scan = file("one.off");
+  write_off(scan, sphere(1));
   EXPECT_EQ(validate({file("good.glb"), file("good.zt"), "--source", scan}).exit_code, 2);
   EXPECT_EQ(validate({file("good.zt"), "--source", scan}).exit_code, 2);
   EXPECT_EQ(validate({file("plain.gltf"), "--source", scan}).exit_code, 2);
@@ -226,13 +271,13 @@ TEST_F(ValidateCommand, MeasuresOneFileAgainstItsScan) {
 
 // The errors of a scan with filled holes are those of the filled one.
 TEST_F(ValidateCommand, MeasuresAgainstTheScanAsItWasChanged) {
-  TriangleMesh open = add_bumps(sphere(3), 0.02, 4);
+  TriangleMesh open = add_bumps(sphere(2), 0.02, 4);
   std::erase_if(open.triangles, [&](const Triangle& t) {
     return open.positions[t[0]].z() > 0.9 && open.positions[t[1]].z() > 0.9;
   });
   write_off(file("open.off"), open);
   ASSERT_EQ(run_zerotree({"convert", file("open.off"), "-o", file("filled.glb"), "--fill-holes",
-                          "1.0", "--base-vertices", "60", "--levels", "2"})
+                          "1.0", "--base-vertices", "40", "--levels", "1"})
                 .exit_code,
             0);
   EXPECT_EQ(validate({file("filled.glb"), "--source", file("open.off")}).exit_code, 1);

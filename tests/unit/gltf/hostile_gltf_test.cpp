@@ -164,8 +164,9 @@ TEST(HostileJson, DeepNestingIsRefused) {
 
 TEST(HostileJson, BuffersStayBesideTheFile) {
   const TemporaryFolder folder;
-  for (const char* uri : {"/etc/hostname", "http://example.org/a", "file:///etc/hostname", "",
-                          "../../../../../../etc/hostname", "%2e%2e/secret", "a/../../b"}) {
+  for (const char* uri :
+       {"/etc/hostname", "http://example.org/a", "file:///etc/hostname", "",
+        "../../../../../../etc/hostname", "%2e%2e/secret", "a/../../b", "a.glb%00.bin"}) {
     write_split(folder / "a.glb", small_asset());
     const std::vector<std::uint8_t> whole = read_file(folder / "a.glb");
     const GlbChunks chunks = split_glb(whole);

@@ -32,9 +32,19 @@ It checks, in this order:
    that a schema cannot state.
 4. **The base mesh**: an oriented manifold in the form that the extension allows, unpacked where it
    is compressed.
-5. **The payload**: the validator decodes it at every entry of `prefixes` and in full, compares its
-   header with the extension object and the base mesh, and looks at the surface of each of these
-   prefixes.
+5. **The payload**: the validator compares its header with the extension object and the base mesh,
+   and decodes it at every entry of `prefixes`, at no and all bytes, and at some random lengths
+   drawn from the payload's bytes, so that the same file always gets the same answer. Where a
+   surface is large or the table long, it decodes fewer lengths, and says so of the table.
+6. **The surface of each of these prefixes**: positions are finite and in `bounds`, and seams stay
+   closed. A seam is a pair of boundary edges of the base mesh that lie on each other with vertices
+   of their own. Where it opens between two primitives, the surface cracks, which is an error;
+   within one primitive it may be meant, and is a warning.
+7. **The source**, if the mesh that was encoded is given and there is no error so far: its diagonal
+   and the errors of `prefixes` are measured again. The error of an entry is broken where it is more
+   than 3 % too small, and questionable where it is more than 25 % too large.
+8. **Budgets**, if there are any: bytes of the file and of all files it names, stated error of the
+   whole payload, and triangles of the finest surfaces.
 
 A validator states limits beyond which it does not decode, and reports what lies beyond them as an
 error: what was not checked is not valid.

@@ -244,5 +244,17 @@ TEST(Report, HasTheShapeOfGltfValidators) {
   EXPECT_EQ(report["info"]["extensionsUsed"], json({gltf::kExtensionName}));
 }
 
+TEST(Report, LeavesOutWhatIsNotKnown) {
+  const std::string text = "no glTF";
+  for (const ValidationReport& report :
+       {validate_bytes(std::vector<std::uint8_t>(text.begin(), text.end())),
+        unreadable_report("a.glb", "it is not there")}) {
+    const json shown = to_json(report);
+    EXPECT_FALSE(shown.contains("mimeType")) << shown;
+    EXPECT_FALSE(shown.contains("info")) << shown;
+    EXPECT_EQ(shown["issues"]["numErrors"], 1) << shown;
+  }
+}
+
 }  // namespace
 }  // namespace zerotree::validate

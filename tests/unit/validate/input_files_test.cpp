@@ -1,6 +1,7 @@
 #include "validate/input_files.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -55,6 +56,16 @@ TEST(InputFiles, DoNotFollowLinksInCircles) {
   touch(folder / "a/b.glb");
   fs::create_directory_symlink(folder.path(), folder / "a/again");
   EXPECT_EQ(find_input_files({folder.path()}).size(), 1u);
+}
+
+TEST(InputFiles, AreFoundBesideAFolderThatCannotBeSearched) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may search everything";
+  const test::TemporaryFolder folder;
+  for (const char* name : {"a.glb", "b/hidden.glb", "c/d.glb"}) touch(folder / name);
+  fs::permissions(folder / "b", fs::perms::none);
+  const auto files = find_input_files({folder.path()});
+  fs::permissions(folder / "b", fs::perms::owner_all);
+  EXPECT_EQ(names_of(files, folder.path()), (std::vector<std::string>{"a.glb", "b !", "c/d.glb"}));
 }
 
 }  // namespace
