@@ -113,6 +113,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::filesystem::path folder = argv[1];
+  std::filesystem::create_directories(folder);
   gltf::ProgressiveAsset large = torus(1500, 1000);
   add_payload(large, 1, 1e6);
   write(folder / "large-base.glb", gltf::glb_bytes(large));

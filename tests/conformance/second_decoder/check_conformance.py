@@ -14,7 +14,7 @@ from float32 import to_f32
 from surface import SurfaceLevels, reconstruct
 
 POSITION_TOLERANCE = 1e-5
-F32_ROUNDING = 2.0**-22
+F32_ROUNDING = 2.0**-20
 NORMAL_TOLERANCE = 1e-3
 CHANNELS = ("normal", "tangent1", "tangent2")
 
