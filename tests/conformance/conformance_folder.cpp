@@ -13,8 +13,8 @@ using nlohmann::ordered_json;
 
 constexpr const char* kReadme = R"(# Conformance streams
 
-Small streams of every sort, and what they decode to: with these a decoder of
-[the specification](../README.md) can be tested without any other program. All files are made by
+Small streams of every sort, and what they decode to: with these a decoder of [the
+specification](../README.md) can be tested without any other program. All files are made by
 `tests/conformance`; nobody edits them.
 
 | file | |
@@ -27,22 +27,23 @@ Small streams of every sort, and what they decode to: with these a decoder of
 
 `index.json` holds three lists.
 
-* **streams**: `name`, `file`, `base` (null, or the file of an external base), `levels` (as the
-  extension object says it), `shows` (what it is there for), `prefixes` (`byteLength`, and the file
-  `expected`).
-* **broken**: the same fields, the `rule` that the stream breaks, by its name in section A.8 of
-  [BITSTREAM.md](../BITSTREAM.md), and what this project's decoder complains of. A decoder must
-  answer *broken* to each, except where the rule is *A.2 limits* and its limits are larger; the
-  wording is its own. `levels` is null where there is no external base.
+* **streams**: `name`, `file`, `base` (null, or the file of an external base), `levels` (of an
+  external base as the extension object says it, else that of the header), `shows` (what it is there
+  for), `prefixes` (`byteLength`, and the file `expected`).
+* **broken**: `name`, `file`, `base`, `levels`; `rule`, the rule that the stream breaks, by its name
+  in section A.8 of [BITSTREAM.md](../BITSTREAM.md); `complaint`, what this project's decoder says
+  of it. A decoder must answer *broken* to each, except where the rule is *A.2 limits* and its
+  limits are larger; the wording is its own. `levels` is null where there is no external base.
 * **files**: `file`, the `codes` that a validator finds ([VALIDATION.md](../VALIDATION.md), each as
-  often as it is found, in any order), and the `exit` code of `zerotree validate`.
+  often as it is found, in any order), and `exit`, the exit code of this project's validator: 1 if
+  one of the codes is an error, else 0.
 
 An expected file holds
 
 * `status`: `done` or `more bytes wanted`;
 * `base`: null while the bytes do not determine an embedded base, else `positions` (control points
   as far as the bytes determine them), `triangles`, `creases` (numbers of base edges) and `corners`
-  (numbers of base vertices). An external base is known from the first byte on, and has creases
+  (numbers of base vertices). An external base is known at every length, 0 included, and has creases
   and corners when its tags are there;
 * `details`: per level `normal`, `tangent1` and `tangent2`, the `value` (section A.5 of
   [BITSTREAM.md](../BITSTREAM.md)) of each cell in order of its index, absent ones included; empty
@@ -55,8 +56,9 @@ An expected file holds
 Numbers with a fraction are the shortest decimals of f32 values, as in bases. Details are integers
 and must be equal, and so must the positions of the base; creases and corners are sets. Positions
 may differ from the expected ones by as much as section B.9 of
-[RECONSTRUCTION.md](../RECONSTRUCTION.md) says, normals by 1e-3 (length of the difference). The
-bytes may be fed in pieces of any size.
+[RECONSTRUCTION.md](../RECONSTRUCTION.md) says, and so may normals. `all_ones`, `early_end` and
+`trailing_bytes` are valid streams that no encoder writes (A.3). The bytes may be fed in pieces of
+any size.
 )";
 
 Bytes bytes_of(const std::string& text) {

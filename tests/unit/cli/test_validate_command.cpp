@@ -30,9 +30,8 @@ class ValidateCommand : public testing::Test {
     write(file("good.zt"), encoded_stream(shape));
     std::ofstream(file("plain.gltf")) << R"({"asset":{"version":"2.0"}})";
     std::ofstream(file("text.glb")) << "no glTF";
-    std::vector<char> bytes = read_bytes(file("good.glb"));
-    bytes.resize(bytes.size() - 20);
-    write(file("cut.glb"), bytes);
+    const std::vector<char> bytes = read_bytes(file("good.glb"));
+    write(file("cut.glb"), std::vector<char>(bytes.begin(), bytes.end() - 20));
     std::filesystem::create_directories(file("empty"));
   }
   static void TearDownTestSuite() { delete files_; }

@@ -51,7 +51,7 @@ error: what was not checked is not valid.
 
 | severity | number in reports | meaning |
 |---|---|---|
-| error | 0 | The file breaks a rule. |
+| error | 0 | The file breaks a rule, a budget or a limit of the validator, or its surface cracks. |
 | warning | 1 | The file keeps the rules, but readers may show something else than was meant. |
 | information | 2 | No defect. |
 | hint | 3 | No defect, but a chance to improve. |
