@@ -163,6 +163,13 @@ bool check_header(const ProgressiveSurface& surface, int levels, std::uint32_t b
   return header.base_hash == base_hash && header.levels == levels;
 }
 
+// Why the base is no oriented 2-manifold; empty if it is one.
+std::string base_problem(const BaseTopology& base, const bitstream::BaseEdges& numbered) {
+  if (!numbered.error.empty()) return numbered.error;
+  const bitstream::ConnectivityStatus fans = bitstream::check_base_fans(base, numbered.edges);
+  return fans.ok() ? "" : fans.problem;
+}
+
 // The base as it is before any byte of the payload is decoded.
 struct KnownBase {
   LevelCounts counts;
@@ -179,12 +186,12 @@ std::optional<KnownBase> know_base(const ProgressiveAsset& asset, const MeshPlac
   const LevelCounts fewest{asset.base.vertex_count, (3 * faces + 1) / 2, faces};
   if (is_too_large(surface::refined_counts(fewest, asset.levels).vertices, options, levels, issues))
     return std::nullopt;
-  const bitstream::ConnectivityStatus status = bitstream::check_base_topology(asset.base);
-  if (!status.ok()) {
-    issues.push_back({IssueCode::base_unsupported, place.mesh, status.problem});
+  const bitstream::BaseEdges numbered = bitstream::number_base_edges(asset.base);
+  const std::string problem = base_problem(asset.base, numbered);
+  if (!problem.empty()) {
+    issues.push_back({IssueCode::base_unsupported, place.mesh, problem});
     return std::nullopt;
   }
-  const bitstream::BaseEdges numbered = bitstream::number_base_edges(asset.base);
   const LevelCounts counts{asset.base.vertex_count, numbered.edges.size(), faces};
   if (is_too_large(surface::refined_counts(counts, asset.levels).vertices, options, levels, issues))
     return std::nullopt;
